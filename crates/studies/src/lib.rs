@@ -1,1 +1,15 @@
-//! Skeleton.
+//! Scenarios, the studies that run them, and the records they leave.
+
+mod diagnostic;
+mod error;
+mod progress;
+pub mod record;
+mod run;
+pub mod scenario;
+
+pub use diagnostic::{Diagnostic, Excerpt, Place};
+pub use error::Error;
+pub use progress::{Context, Progress, Silent};
+pub use record::Record;
+pub use run::run;
+pub use scenario::Scenario;

@@ -1,0 +1,50 @@
+//! The one error type of the crate: bad input with its place, and what files and folders refuse.
+
+use std::path::PathBuf;
+
+use crate::diagnostic::Diagnostic;
+
+/// What can go wrong between a scenario file and the files of a finished study.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// Input that people can mend: a scenario key, a unit, a row of a log. Says where and how.
+    #[error("{0}")]
+    Input(Box<Diagnostic>),
+    /// A file could not be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A file or folder of the results could not be written. Nothing half-written is left behind.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A figure could not be drawn.
+    #[error("cannot draw {figure}: {reason}")]
+    Figure {
+        /// File name of the figure.
+        figure: String,
+        /// What the drawing library said.
+        reason: String,
+    },
+    /// A valid scenario that this version cannot run yet.
+    #[error("{what} is not available in this version")]
+    Unsupported {
+        /// The part of the scenario.
+        what: String,
+    },
+}
+
+impl From<Diagnostic> for Error {
+    fn from(diagnostic: Diagnostic) -> Self {
+        Error::Input(Box::new(diagnostic))
+    }
+}

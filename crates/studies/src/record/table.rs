@@ -1,0 +1,191 @@
+//! Tables of named columns: numbers in SI, or one of a few words.
+
+/// A table, kept by columns.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    /// Name, which is the stem of its file: `errors`, `trajectory`, `imu`, `summary`.
+    pub name: String,
+    /// The columns, all of the same length.
+    pub columns: Vec<Column>,
+}
+
+/// A column.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Column {
+    /// Numbers; the unit is the last part of the name (`dn_m`, `v_n_mps`, `phi_n_rad`).
+    Number {
+        /// Name with unit.
+        name: String,
+        /// Values, SI.
+        values: Vec<f64>,
+    },
+    /// Words, each kept once.
+    Word {
+        /// Name.
+        name: String,
+        /// The different words in order of their first appearance.
+        words: Vec<String>,
+        /// Index into `words`, one a row.
+        codes: Vec<u32>,
+    },
+}
+
+/// One entry of a row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cell<'a> {
+    /// A number, SI.
+    Number(f64),
+    /// A word.
+    Word(&'a str),
+}
+
+impl From<f64> for Cell<'_> {
+    fn from(value: f64) -> Self {
+        Cell::Number(value)
+    }
+}
+
+impl<'a> From<&'a str> for Cell<'a> {
+    fn from(word: &'a str) -> Self {
+        Cell::Word(word)
+    }
+}
+
+impl Column {
+    /// Name of the column.
+    pub fn name(&self) -> &str {
+        match self {
+            Column::Number { name, .. } | Column::Word { name, .. } => name,
+        }
+    }
+
+    /// Rows.
+    pub fn len(&self) -> usize {
+        match self {
+            Column::Number { values, .. } => values.len(),
+            Column::Word { codes, .. } => codes.len(),
+        }
+    }
+
+    /// Whether there is no row.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Entry of one row. Panics beyond the last.
+    pub fn cell(&self, row: usize) -> Cell<'_> {
+        match self {
+            Column::Number { values, .. } => Cell::Number(values[row]),
+            Column::Word { words, codes, .. } => Cell::Word(&words[codes[row] as usize]),
+        }
+    }
+
+    fn push(&mut self, cell: Cell<'_>) {
+        match (self, cell) {
+            (Column::Number { values, .. }, Cell::Number(value)) => values.push(value),
+            (Column::Word { words, codes, .. }, Cell::Word(word)) => {
+                let code = words.iter().position(|w| w == word).unwrap_or_else(|| {
+                    words.push(word.into());
+                    words.len() - 1
+                });
+                codes.push(code as u32);
+            }
+            (column, cell) => panic!("invariant: column {} does not take {cell:?}", column.name()),
+        }
+    }
+}
+
+impl Table {
+    /// An empty table. `words` names the columns of words, the others hold numbers.
+    ///
+    /// ```
+    /// use schuler_studies::record::Table;
+    /// let mut t = Table::new("errors", &["t_s", "source", "dn_m"], &["source"]);
+    /// t.push(&[60.0.into(), "gyro.bias.constant.x".into(), (-0.01).into()]);
+    /// assert_eq!(t.numbers("dn_m"), Some(&[-0.01][..]));
+    /// ```
+    pub fn new(name: &str, columns: &[&str], words: &[&str]) -> Self {
+        let column = |&name: &&str| match words.contains(&name) {
+            true => Column::Word { name: name.into(), words: Vec::new(), codes: Vec::new() },
+            false => Column::Number { name: name.into(), values: Vec::new() },
+        };
+        Table { name: name.into(), columns: columns.iter().map(column).collect() }
+    }
+
+    /// Adds a row, one cell a column. Panics where number and kind of the cells are not those of the columns,
+    /// which is a fault of the study and not of its input.
+    pub fn push(&mut self, row: &[Cell<'_>]) {
+        assert_eq!(
+            row.len(),
+            self.columns.len(),
+            "invariant: a row of table {} has one cell a column",
+            self.name
+        );
+        for (column, cell) in self.columns.iter_mut().zip(row) {
+            column.push(*cell);
+        }
+    }
+
+    /// Rows.
+    pub fn len(&self) -> usize {
+        self.columns.first().map_or(0, Column::len)
+    }
+
+    /// Whether there is no row.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The column of that name.
+    pub fn column(&self, name: &str) -> Option<&Column> {
+        self.columns.iter().find(|c| c.name() == name)
+    }
+
+    /// The values of a column of numbers.
+    pub fn numbers(&self, name: &str) -> Option<&[f64]> {
+        match self.column(name) {
+            Some(Column::Number { values, .. }) => Some(values),
+            _ => None,
+        }
+    }
+}
+
+/// The columns that studies write, as the README states them.
+pub mod columns {
+    /// `errors.csv`: position, velocity and attitude error, computed minus true, local north-east-down.
+    pub const ERRORS: [&str; 12] = [
+        "t_s",
+        "source",
+        "way",
+        "dn_m",
+        "de_m",
+        "dd_m",
+        "dv_n_mps",
+        "dv_e_mps",
+        "dv_d_mps",
+        "phi_n_rad",
+        "phi_e_rad",
+        "phi_d_rad",
+    ];
+    /// `trajectory.csv`.
+    pub const TRAJECTORY: [&str; 10] = [
+        "t_s",
+        "lat_rad",
+        "lon_rad",
+        "h_m",
+        "v_n_mps",
+        "v_e_mps",
+        "v_d_mps",
+        "roll_rad",
+        "pitch_rad",
+        "yaw_rad",
+    ];
+    /// `imu.csv` with increments over the interval that ends at `t_s`.
+    pub const INCREMENTS: [&str; 7] =
+        ["t_s", "dtheta_x_rad", "dtheta_y_rad", "dtheta_z_rad", "dv_x_mps", "dv_y_mps", "dv_z_mps"];
+    /// `imu.csv` with means over the interval that ends at `t_s`.
+    pub const RATES: [&str; 7] =
+        ["t_s", "omega_x_radps", "omega_y_radps", "omega_z_radps", "f_x_mps2", "f_y_mps2", "f_z_mps2"];
+    /// `way` of `errors.csv`.
+    pub const WAYS: [&str; 5] = ["nonlinear", "half_difference", "linear", "exact", "single_axis"];
+}

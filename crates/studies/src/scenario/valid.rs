@@ -1,0 +1,266 @@
+//! Types of the valid scenario. Nothing downstream sees anything else.
+
+use std::path::PathBuf;
+
+use hifitime::Epoch;
+use schuler_frames::{Geodetic, Gravity};
+
+/// A scenario that can be run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scenario {
+    /// File it came from, as named by the user.
+    pub file: PathBuf,
+    /// Title for tables and figures.
+    pub title: String,
+    /// Which study, with everything it needs.
+    pub study: Study,
+    /// What is written, and how often.
+    pub output: Output,
+    /// What the result is expected to be.
+    pub expect: Vec<Expect>,
+    /// Master seed of every random draw.
+    pub seed: u64,
+    /// BLAKE3 of the canonical form, hexadecimal: comments, order of keys and units do not change it.
+    pub hash: String,
+}
+
+/// The kinds of study.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Study {
+    /// Sensor errors only.
+    Imu(ImuStudy),
+    /// Each error source alone and all together, on a stationary base.
+    Drift(Drift),
+    /// A recorded log.
+    Navigate(Navigate),
+}
+
+impl Scenario {
+    /// How the study navigates, if it does.
+    pub fn mechanization(&self) -> Option<&Mechanization> {
+        match &self.study {
+            Study::Imu(_) => None,
+            Study::Drift(drift) => Some(&drift.mechanization),
+            Study::Navigate(navigate) => Some(&navigate.mechanization),
+        }
+    }
+}
+
+impl Study {
+    /// The word for it in a scenario.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Study::Imu(_) => "imu",
+            Study::Drift(_) => "drift",
+            Study::Navigate(_) => "navigate",
+        }
+    }
+}
+
+impl Vertical {
+    /// The word for it in a scenario.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Vertical::Held => "held",
+            Vertical::Free => "free",
+            Vertical::Damped(_) => "damped",
+        }
+    }
+}
+
+/// `study: imu`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImuStudy {
+    /// What the instrument goes through.
+    pub motion: Motion,
+    /// Place and attitude, where the motion needs them.
+    pub start: Start,
+    /// Duration, s, positive.
+    pub duration: f64,
+    /// The instrument.
+    pub imu: Imu,
+}
+
+/// `study: drift`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drift {
+    /// Where, when and how it stands.
+    pub start: Start,
+    /// Duration, s, positive.
+    pub duration: f64,
+    /// The instrument.
+    pub imu: Imu,
+    /// Errors of the computed state at the start.
+    pub initial_errors: Vec<Initial>,
+    /// How it navigates.
+    pub mechanization: Mechanization,
+}
+
+/// `study: navigate`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Navigate {
+    /// Where and when the log begins; its attitude is found by `align`.
+    pub start: Start,
+    /// Levelling and heading from the log itself.
+    pub align: Align,
+    /// How it navigates.
+    pub mechanization: Mechanization,
+    /// How much of the log after the window is navigated, s; all of it when absent.
+    pub duration: Option<f64>,
+}
+
+/// Place, time, attitude and velocity at t = 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Start {
+    /// Epoch of t = 0, any time scale.
+    pub epoch: Epoch,
+    /// WGS 84 geodetic position.
+    pub position: Geodetic,
+    /// Roll, pitch, yaw, rad (yaw-pitch-roll sequence, yaw clockwise from north).
+    pub attitude: [f64; 3],
+    /// North, east, down velocity, m/s.
+    pub velocity: [f64; 3],
+}
+
+/// What the instrument goes through.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Motion {
+    /// Zero angular velocity and zero specific force: no place on the Earth, but what an error model
+    /// shows when it is alone.
+    ZeroTruth,
+    /// At rest on the Earth.
+    Static,
+    /// On a rate table that tilts and turns it.
+    RateTable(RateTable),
+}
+
+/// A rate table: for each axis x, y, z the instrument is turned about it by `angle` forward and back at
+/// `rate`, with the turning axis tilted from the vertical by `tilt`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RateTable {
+    /// Rate of the table, rad/s, positive.
+    pub rate: f64,
+    /// Tilt of the table axis from the vertical, rad.
+    pub tilt: f64,
+}
+
+/// An instrument: three gyros and three accelerometers along x, y, z of the body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Imu {
+    /// Sample rate, Hz, positive.
+    pub rate: f64,
+}
+
+/// One initial error of the computed state, one component: for each axis that is not zero, in the order of
+/// the file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Initial {
+    /// Name of the source, `initial.tilt.n`.
+    pub name: &'static str,
+    /// Position error north, east, down, m.
+    pub position: [f64; 3],
+    /// Velocity error north, east, down, m/s.
+    pub velocity: [f64; 3],
+    /// Attitude error phi north, east, down, rad: C_computed = exp(-[phi ×]) C_true.
+    pub phi: [f64; 3],
+}
+
+/// How the navigator computes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mechanization {
+    /// Frame of the computation.
+    pub frame: Frame,
+    /// What becomes of the vertical channel.
+    pub vertical: Vertical,
+    /// Gravity model.
+    pub gravity: Gravity,
+}
+
+/// Frame of the computation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Frame {
+    /// Local level, north-east-down.
+    T,
+}
+
+/// The vertical channel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Vertical {
+    /// Height and vertical velocity keep their initial values.
+    Held,
+    /// Unaided: errors grow by e every 570 s.
+    Free,
+    /// Slaved to the reference height.
+    Damped(Damping),
+}
+
+/// The baro loop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Damping {
+    /// 2 or 3.
+    pub order: u8,
+    /// Time constant, s, positive.
+    pub tau: f64,
+}
+
+/// Levelling and heading from specific force and Earth rate averaged over a window.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Align {
+    /// Begin and end of the window, s from the first sample.
+    pub window: [f64; 2],
+}
+
+/// What is written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Output {
+    /// Interval of the rows, s; every sample when absent.
+    pub every: Option<f64>,
+    /// Kinds of files.
+    pub formats: Formats,
+}
+
+/// Kinds of files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Formats {
+    /// Tables as CSV.
+    pub csv: bool,
+    /// Figures as PNG.
+    pub png: bool,
+    /// Figures as SVG.
+    pub svg: bool,
+}
+
+/// One expected number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expect {
+    /// Column of an output table, `dn_m`.
+    pub quantity: String,
+    /// Row filter on `source`, where the table has it.
+    pub source: Option<String>,
+    /// Row filter on `way`, where the table has it.
+    pub way: Option<String>,
+    /// Which number of the column.
+    pub at: Statistic,
+    /// Expected value, SI.
+    pub value: f64,
+    /// Tolerance, SI, not negative.
+    pub tolerance: f64,
+}
+
+/// Which number of a column.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Statistic {
+    /// The row at this time, s.
+    Time(f64),
+    /// The last row.
+    Final,
+    /// The largest magnitude.
+    Largest,
+    /// The root of the mean square.
+    Rms,
+    /// The mean.
+    Mean,
+    /// The standard deviation about the mean (n - 1).
+    Deviation,
+}
