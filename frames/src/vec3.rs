@@ -44,6 +44,13 @@ impl<F: Frame, S: Real> Vec3<F, S> {
         Self::new(b * z - c * y, c * x - a * z, a * y - b * x)
     }
 
+    /// The vector times a constant.
+    #[inline(always)]
+    pub fn scaled(self, k: f64) -> Self {
+        let [a, b, c] = self.0;
+        Self::new(a * k, b * k, c * k)
+    }
+
     /// Square of the Euclidean norm.
     #[inline(always)]
     pub fn norm_squared(self) -> S {

@@ -1,2 +1,16 @@
-//! Skeleton.
+//! Strapdown mechanization, linear error dynamics and closed forms.
 #![no_std]
+
+mod error_dynamics;
+mod increments;
+mod kernel;
+mod local_level;
+mod pva;
+pub mod static_base;
+mod vertical;
+
+pub use error_dynamics::{ErrorDynamics, System};
+pub use increments::Increments;
+pub use local_level::{LocalLevel, Normal, Somigliana, StepGravity};
+pub use pva::{NavError, Pva};
+pub use vertical::{BaroLoop, Vertical};
