@@ -67,7 +67,13 @@ impl<F: Frame> Vec3<F> {
         libm::sqrt(self.norm_squared())
     }
 
-    /// As a column of `nalgebra`, without its frame.
+    /// The matrix `[self ×]`: `self.skew() * v` is the vector product of `self` and `v`.
+    pub fn skew(self) -> nalgebra::Matrix3<f64> {
+        let [x, y, z] = self.0;
+        nalgebra::Matrix3::new(0.0, -z, y, z, 0.0, -x, -y, x, 0.0)
+    }
+
+    /// As a column of `nalgebra`, without its frame. The way back is [`Vec3::claim`].
     pub fn as_nalgebra(self) -> nalgebra::Vector3<f64> {
         self.0.into()
     }
