@@ -33,27 +33,6 @@ impl<S: Real> Sum<S> {
     }
 }
 
-/// Newton step (third order) of a reciprocal: the old value of 1/x becomes that of the new x.
-#[inline(always)]
-pub(crate) fn refine_reciprocal<S: Real>(y: S, x: S) -> S {
-    let e = -(x * y) + 1.0;
-    y + y * (e + e * e)
-}
-
-/// Newton step (third order) of a reciprocal square root: the old value of 1/sqrt(x) becomes that of the new x.
-#[inline(always)]
-pub(crate) fn refine_rsqrt<S: Real>(y: S, x: S) -> S {
-    let e = -(x * y * y) + 1.0;
-    y + y * (e * 0.5 + e * e * 0.375)
-}
-
-/// sin d and 1 - cos d of a small angle d, by series; exact to 1e-16 for |d| < 0.003 rad.
-#[inline(always)]
-pub(crate) fn sin_vers<S: Real>(d: S) -> (S, S) {
-    let d2 = d * d;
-    (d - d * d2 * (1.0 / 6.0), d2 * 0.5 - d2 * d2 * (1.0 / 24.0))
-}
-
 /// Quaternion of the rotation vector `sigma` (rad) less the identity: `[cos(|sigma|/2) - 1, sin(|sigma|/2) sigma/|sigma|]`.
 ///
 /// By series in |sigma|², exact to 1e-16 for |sigma| up to 1 rad. The identity is left out so that

@@ -1,6 +1,7 @@
 //! Strapdown mechanization, linear error dynamics and closed forms.
 #![no_std]
 
+mod anchor;
 mod error_dynamics;
 mod increments;
 mod kernel;
@@ -11,6 +12,6 @@ mod vertical;
 
 pub use error_dynamics::{ErrorDynamics, System};
 pub use increments::Increments;
-pub use local_level::{LocalLevel, Normal, Somigliana, StepGravity};
+pub use local_level::LocalLevel;
 pub use pva::{NavError, Pva};
 pub use vertical::{BaroLoop, Vertical};

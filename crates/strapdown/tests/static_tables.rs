@@ -70,7 +70,7 @@ fn navigate(
     let o = site.omega_ie;
     let omega = [o * site.cos_lat, 0.0, -o * site.sin_lat];
     let f = [0.0, 0.0, -site.g];
-    let mut nav = LocalLevel::new(&start);
+    let mut nav = LocalLevel::new(&start, Gravity::Somigliana, vertical);
     let mut k = 0u64;
     for &t in rows {
         while (k as f64) * dt < t - 0.5 * dt {
@@ -85,7 +85,7 @@ fn navigate(
                 ),
                 dv: Vec3::<B>::new((f[0] + da[0]) * dt, (f[1] + da[1]) * dt, (f[2] + da[2]) * dt),
             };
-            nav.step(&increments, dt, Gravity::Somigliana, vertical);
+            nav.step(&increments, dt);
             k += 1;
         }
         at(t, &nav.pva());
@@ -149,7 +149,8 @@ fn free_vertical_channel_meets_the_quad_tables() {
         let p = place();
         let truth = Pva { position: p, v_t: Vec3::ZERO, c_tb: Rot::IDENTITY };
         let mut row = rows.iter();
-        let at = |t: f64, pva: &Pva| {
+        let mut worst = 0.0;
+        let at = |_: f64, pva: &Pva| {
             let e = schuler_strapdown::NavError::between(pva, &truth);
             let got = [
                 e.dv[0],
@@ -165,10 +166,12 @@ fn free_vertical_channel_meets_the_quad_tables() {
             let expected = &row.next().unwrap().1;
             for k in 0..9 {
                 let error = (got[k] - expected[k]).abs() / scale[k];
-                assert!(error < 1e-6, "{name} t {t} column {k}: {} against {}", got[k], expected[k]);
+                worst = f64::max(worst, error);
             }
         };
         navigate(&case, start(&case, dh), Vertical::Free, 0.01, at, &times);
+        println!("{name}: {worst:.1e}");
+        assert!(worst < 1e-6, "{name}: {worst:e}");
     }
 }
 
