@@ -1,2 +1,46 @@
-//! Skeleton.
+//! Errors of inertial sensors: terms of the measurement equation times processes in time.
+//!
+//! Everything is along sensor axes and in SI units with angles in radians; temperatures are in
+//! kelvin. An error is measured minus true.
+//!
+//! A [`Source`] is a [`Term`] (how coefficients become an output error, given the input) on an
+//! [`Instrument`], whose coefficients follow a [`Process`] (how they evolve in time). A [`Spec`]
+//! lists sources, an [`Imu`] steps them.
+//!
+//! ```
+//! use schuler_imu::{Imu, Instrument::Gyro, Source, Spec, Stream, Truth};
+//!
+//! let spec = Spec::from_sources([
+//!     Source::named(Gyro, "bias", "white", &[("density", 1e-4.into())])?,
+//!     Source::named(Gyro, "scale_factor", "constant", &[("sigma", 1e-4.into())])?,
+//! ])?;
+//! let mut imu = Imu::new(&spec, Stream { seed: 1, run: 0 })?;
+//! let sample = imu.step(0.01, &Truth::rates([0.1, 0.0, 0.0], [0.0, 0.0, -9.81]));
+//! assert!((sample.omega()[0] - 0.1).abs() < 1e-4 + 5.0 * 1e-4 / 0.01_f64.sqrt());
+//! # Ok::<(), schuler_imu::Error>(())
+//! ```
 #![no_std]
+
+mod error;
+mod imu;
+mod instrument;
+pub mod process;
+pub mod random;
+mod sample;
+mod source;
+mod spec;
+pub mod term;
+mod truth;
+mod unit;
+
+pub use error::{Error, Names, Text};
+pub use imu::{Imu, MAX_LANES, State};
+pub use instrument::Instrument;
+pub use process::{Evolution, PROCESSES, Process, ProcessKind, Value, process_kind};
+pub use random::Stream;
+pub use sample::Sample;
+pub use source::{Component, Source};
+pub use spec::{MAX_SOURCES, Spec};
+pub use term::{TERMS, Term, term};
+pub use truth::{Input, Motion, Truth};
+pub use unit::Unit;

@@ -6,6 +6,8 @@ mod progress;
 pub mod record;
 mod run;
 pub mod scenario;
+mod similar;
+pub mod units;
 
 pub use diagnostic::{Diagnostic, Excerpt, Place};
 pub use error::Error;

@@ -1,0 +1,122 @@
+//! What really happens to the IMU over a sample interval, and what a term sees of it.
+
+use crate::Instrument;
+
+/// True motion and environment over one sample interval, along sensor axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Truth {
+    /// Rate and specific force.
+    pub motion: Motion,
+    /// Angular acceleration, mean over the interval, rad/s². Only lever-arm effects need it.
+    pub omega_dot: [f64; 3],
+    /// Temperature, mean over the interval, K.
+    pub temperature: f64,
+    /// Rate of the temperature, K/s.
+    pub temperature_rate: f64,
+    /// Mean square of the vibration that the mean specific force does not show, per axis, (m/s²)².
+    pub vibration: [f64; 3],
+}
+
+/// Motion over one sample interval, as means or as increments.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Motion {
+    /// Means over the interval: angular rate (rad/s) and specific force (m/s²).
+    Rates {
+        /// Mean angular rate with respect to inertial space, rad/s.
+        omega: [f64; 3],
+        /// Mean specific force, m/s².
+        f: [f64; 3],
+    },
+    /// Integrals over the interval: of angular rate (rad) and of specific force (m/s).
+    Increments {
+        /// Integral of the angular rate, rad.
+        dtheta: [f64; 3],
+        /// Integral of the specific force along the turning sensor axes, m/s.
+        dv: [f64; 3],
+    },
+}
+
+impl Truth {
+    /// Temperature of a `Truth` that states none: 20 °C.
+    pub const TEMPERATURE: f64 = 293.15;
+
+    /// From the means over the interval of angular rate (rad/s) and specific force (m/s²).
+    pub const fn rates(omega: [f64; 3], f: [f64; 3]) -> Truth {
+        Truth::of(Motion::Rates { omega, f })
+    }
+
+    /// From the integrals over the interval of angular rate (rad) and of specific force (m/s).
+    pub const fn increments(dtheta: [f64; 3], dv: [f64; 3]) -> Truth {
+        Truth::of(Motion::Increments { dtheta, dv })
+    }
+
+    const fn of(motion: Motion) -> Truth {
+        Truth {
+            motion,
+            omega_dot: [0.0; 3],
+            temperature: Truth::TEMPERATURE,
+            temperature_rate: 0.0,
+            vibration: [0.0; 3],
+        }
+    }
+
+    /// The same at `temperature` (K) that changes by `rate` (K/s).
+    pub const fn with_temperature(mut self, temperature: f64, rate: f64) -> Truth {
+        self.temperature = temperature;
+        self.temperature_rate = rate;
+        self
+    }
+
+    /// The same with angular acceleration `omega_dot`, rad/s².
+    pub const fn with_omega_dot(mut self, omega_dot: [f64; 3]) -> Truth {
+        self.omega_dot = omega_dot;
+        self
+    }
+
+    /// The same with vibration of mean square `vibration` per axis, (m/s²)².
+    pub const fn with_vibration(mut self, vibration: [f64; 3]) -> Truth {
+        self.vibration = vibration;
+        self
+    }
+}
+
+/// What a term may depend on: means over the sample interval, along sensor axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Input {
+    /// The instrument's own input: `omega` for gyroscopes, `f` for accelerometers.
+    pub u: [f64; 3],
+    /// Angular rate with respect to inertial space, rad/s.
+    pub omega: [f64; 3],
+    /// Specific force, m/s².
+    pub f: [f64; 3],
+    /// Angular acceleration, rad/s².
+    pub omega_dot: [f64; 3],
+    /// Temperature minus calibration temperature, K.
+    pub delta_t: f64,
+    /// Rate of the temperature, K/s.
+    pub temperature_rate: f64,
+    /// Mean square of vibration per axis, (m/s²)².
+    pub vibration: [f64; 3],
+}
+
+impl Input {
+    /// What `instrument`, calibrated at `calibration` (K), sees of `truth` over an interval of `dt` seconds.
+    pub fn new(instrument: Instrument, truth: &Truth, dt: f64, calibration: f64) -> Input {
+        let (omega, f) = match truth.motion {
+            Motion::Rates { omega, f } => (omega, f),
+            Motion::Increments { dtheta, dv } => (dtheta.map(|d| d / dt), dv.map(|d| d / dt)),
+        };
+        Input {
+            u: match instrument {
+                Instrument::Gyro => omega,
+                Instrument::Accel => f,
+            },
+            omega,
+            f,
+            omega_dot: truth.omega_dot,
+            delta_t: truth.temperature - calibration,
+            temperature_rate: truth.temperature_rate,
+            vibration: truth.vibration,
+        }
+    }
+}

@@ -1,0 +1,5 @@
+//! Tests of the error model.
+
+mod api;
+mod philox;
+mod unit;
