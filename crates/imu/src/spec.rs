@@ -91,7 +91,8 @@ impl Spec {
         self.keep(|c| !c.is(component))
     }
 
-    fn keep(&self, mut wanted: impl FnMut(&Component) -> bool) -> Spec {
+    /// Only the components that `wanted` says; their random draws are as they were.
+    pub fn keep(&self, mut wanted: impl FnMut(&Component) -> bool) -> Spec {
         let mut spec = Spec { calibration_temperature: self.calibration_temperature, ..Spec::new() };
         for source in self.sources() {
             let active =

@@ -1,6 +1,6 @@
 //! Position, velocity and attitude.
 
-use schuler_frames::{B, Geodetic, Rot, T, Vec3, wgs84};
+use schuler_frames::{B, Geodetic, Rot, T, Vec3, phi_between, wgs84};
 
 /// Position, velocity and attitude at one time: what a navigator knows and what is true.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,12 +51,4 @@ impl NavError {
         let [g, h, i] = self.phi.as_array();
         [a, b, c, d, e, f, g, h, i]
     }
-}
-
-fn phi_between(computed: Rot<T, B>, truth: Rot<T, B>) -> Vec3<T> {
-    let [w, x, y, z] = (computed * truth.inverse()).as_quaternion();
-    let v = Vec3::<T>::new(x, y, z);
-    let n = v.norm();
-    let k = if n < 1e-9 { 2.0 / w } else { 2.0 * libm::atan2(n * w.signum(), w.abs()) / n };
-    v * -k
 }
