@@ -2,6 +2,7 @@
 
 mod diagnostic;
 mod error;
+pub mod figure;
 mod progress;
 pub mod record;
 mod run;
