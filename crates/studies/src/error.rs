@@ -35,6 +35,9 @@ pub enum Error {
         /// What the drawing library said.
         reason: String,
     },
+    /// The IMU model refused its list of error sources.
+    #[error("imu: {0}")]
+    Imu(#[from] schuler_imu::Error),
     /// A valid scenario that this version cannot run yet.
     #[error("{what} is not available in this version")]
     Unsupported {

@@ -1,6 +1,7 @@
 //! Scenarios, the studies that run them, and the records they leave.
 
 mod diagnostic;
+pub mod drift;
 mod error;
 pub mod figure;
 mod progress;

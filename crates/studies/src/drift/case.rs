@@ -1,7 +1,8 @@
 //! The cases of a drift study: each error source alone, and all together.
 
 use schuler_frames::{T, Vec3};
-use schuler_imu::{Component, Instrument, Polynomial, Spec};
+use schuler_imu::process::Polynomial;
+use schuler_imu::{Component, Instrument, Spec};
 use schuler_strapdown::static_base::Drivers;
 
 use super::scene::Scene;
@@ -32,7 +33,11 @@ pub fn cases(drift: &Drift) -> Vec<Case> {
         }
         if !random.is_empty() {
             let wanted = |c: &Component| random.iter().any(|r| r.is(c));
-            cases.push(Case { name: source.name().to_string(), spec: spec.keep(wanted), initial: Vec::new() });
+            cases.push(Case {
+                name: source.name().to_string(),
+                spec: spec.keep(wanted),
+                initial: Vec::new(),
+            });
         }
     }
     for initial in &drift.initial_errors {

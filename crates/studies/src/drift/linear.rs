@@ -38,14 +38,14 @@ impl Linear {
     pub fn complete(scene: &Scene) -> Linear {
         let dynamics = ErrorDynamics { gravity: scene.gravity, vertical: scene.vertical };
         let system = dynamics.system(&scene.truth, Vec3::claim(scene.f_b));
-        let mut f = SMatrix::zeros();
+        let mut f: SMatrix<f64, N, N> = SMatrix::zeros();
         f.fixed_view_mut::<9, 9>(0, 0).copy_from(&system.f);
         if let Vertical::Damped(baro) = scene.vertical {
             // a' = k3 dh, v_D' = … + a, dh = -x_D
             f[(5, BARO)] = 1.0;
             f[(BARO, 2)] = -baro.k3;
         }
-        let mut b = SMatrix::zeros();
+        let mut b: SMatrix<f64, N, U> = SMatrix::zeros();
         b.fixed_view_mut::<9, 3>(0, 0).copy_from(&system.b_gyro);
         b.fixed_view_mut::<9, 3>(0, 3).copy_from(&system.b_accel);
         Linear::balanced(f, b, scene)
@@ -54,7 +54,7 @@ impl Linear {
     /// The single-axis equations of the textbooks: no Foucault coupling, no turn of the tilts with the Earth.
     pub fn single_axis(scene: &Scene) -> Linear {
         let site = &scene.site;
-        let mut f = SMatrix::zeros();
+        let mut f: SMatrix<f64, N, N> = SMatrix::zeros();
         for axis in 0..2 {
             f[(axis, 3 + axis)] = 1.0;
         }
@@ -119,8 +119,7 @@ impl Linear {
             .collect();
         let states: usize = models.iter().map(|(_, m)| m.n).sum();
         let n = N + states;
-        let (mut a, mut q, mut p) =
-            (DMatrix::zeros(n, n), DMatrix::zeros(n, n), DMatrix::zeros(n, n));
+        let (mut a, mut q, mut p) = (DMatrix::zeros(n, n), DMatrix::zeros(n, n), DMatrix::zeros(n, n));
         a.view_mut((0, 0), (N, N)).copy_from(&self.f);
         let mut at = N;
         for (entry, m) in &models {
@@ -259,4 +258,3 @@ pub fn input(omega_error: [f64; 3], f_error: [f64; 3]) -> SVector<f64, U> {
     let ([a, b, c], [d, e, f]) = (omega_error, f_error);
     SVector::from([a, b, c, d, e, f])
 }
-

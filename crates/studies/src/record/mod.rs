@@ -5,6 +5,7 @@ mod table;
 pub use table::{Cell, Column, Table, columns};
 
 use crate::Scenario;
+use crate::figure::Figure;
 
 /// The result of a study, complete in memory; `Record::write` makes a folder of it.
 #[derive(Clone, Debug)]
@@ -17,6 +18,8 @@ pub struct Record {
     pub summary: Table,
     /// Remarks a reader of the numbers must know (a bound, a formula's limit), one sentence each.
     pub notes: Vec<String>,
+    /// The figures, each with the stem of its file.
+    pub figures: Vec<(String, Figure)>,
     /// Each `expect` of the scenario with its verdict.
     pub verdicts: Vec<Verdict>,
 }
@@ -82,6 +85,7 @@ impl Record {
             tables: Vec::new(),
             summary,
             notes: Vec::new(),
+            figures: Vec::new(),
             verdicts: Vec::new(),
         }
     }

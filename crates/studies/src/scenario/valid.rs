@@ -149,6 +149,8 @@ pub struct RateTable {
 pub struct Imu {
     /// Sample rate, Hz, positive.
     pub rate: f64,
+    /// Its error sources.
+    pub spec: schuler_imu::Spec,
 }
 
 /// One initial error of the computed state, one component: for each axis that is not zero, in the order of
