@@ -18,11 +18,12 @@ pub(crate) struct Anchor<S> {
     cos_lat: S,
     /// Coefficients of sec L in powers of the way gone in latitude.
     sec: [S; 4],
-    /// 1/(R_M + h), 1/(R_N + h) and the slopes of R_M, R_N with latitude.
+    /// 1/(R_M + h), 1/(R_N + h).
     pub per_r_m: S,
     per_r_n: S,
-    r_m_slope: S,
-    r_n_slope: S,
+    /// First and half the second derivative of R_M and R_N with latitude.
+    r_m_slope: [S; 2],
+    r_n_slope: [S; 2],
     /// Gravity north: value, change with latitude, with height.
     g_n: [S; 3],
     /// Gravity down: value, change with latitude and with height, halves of the second derivatives LL, hh and Lh.
@@ -53,8 +54,8 @@ impl Anchor<f64> {
             sec: [0.0; 4],
             per_r_m: 0.0,
             per_r_n: 0.0,
-            r_m_slope: 0.0,
-            r_n_slope: 0.0,
+            r_m_slope: [0.0; 2],
+            r_n_slope: [0.0; 2],
             g_n: [0.0; 3],
             g_d: [0.0; 6],
         };
@@ -80,8 +81,10 @@ impl Anchor<f64> {
         let (r_m, r_n) = (wgs84::r_m(s), wgs84::r_n(s));
         self.per_r_m = 1.0 / (r_m + h);
         self.per_r_n = 1.0 / (r_n + h);
-        self.r_m_slope = 3.0 * r_m * wgs84::E2 * s * c * w * w;
-        self.r_n_slope = (r_n - r_m) * t;
+        // The second derivatives to first order in e²: they make centimetres in half a second of flight.
+        let half_bend = 0.5 * wgs84::A * wgs84::E2 * (c * c - s * s);
+        self.r_m_slope = [3.0 * r_m * wgs84::E2 * s * c * w * w, 3.0 * half_bend];
+        self.r_n_slope = [(r_n - r_m) * t, half_bend];
         let g = gravity.gravity_t(position);
         let (dlat, dh) = gravity.gradient_t(position);
         self.g_n = [g[0], dlat[0], dh[0]];
@@ -105,8 +108,8 @@ impl<S: Real> Anchor<S> {
     #[inline(always)]
     pub fn near(&self, dlat: S, dh: S) -> Near<S> {
         let (s, c) = (self.sin_lat, self.cos_lat);
-        let x = (self.r_m_slope * dlat + dh) * self.per_r_m;
-        let y = (self.r_n_slope * dlat + dh) * self.per_r_n;
+        let x = ((self.r_m_slope[0] + dlat * self.r_m_slope[1]) * dlat + dh) * self.per_r_m;
+        let y = ((self.r_n_slope[0] + dlat * self.r_n_slope[1]) * dlat + dh) * self.per_r_n;
         Near {
             sin_lat: s + dlat * (c - dlat * (s * 0.5 + dlat * c * (1.0 / 6.0))),
             cos_lat: c - dlat * (s + dlat * (c * 0.5 - dlat * s * (1.0 / 6.0))),

@@ -6,6 +6,8 @@ mod linear;
 mod nonlinear;
 mod scene;
 mod summary;
+#[cfg(test)]
+mod tests;
 
 use rayon::prelude::*;
 use schuler_strapdown::NavError;

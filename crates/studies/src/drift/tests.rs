@@ -1,0 +1,286 @@
+//! The ways of a drift study against each other and against independent tables.
+
+use std::f64::consts::PI;
+
+use schuler_frames::{Geodetic, Gravity};
+use schuler_imu::{Instrument, Source, Spec, Value};
+
+use super::case::cases;
+use super::linear::Linear;
+use super::scene::Scene;
+use super::{Curves, Way, curves, summary};
+use crate::Context;
+use crate::scenario::{Drift, Frame, Imu, Initial, Mechanization, Start, Vertical};
+
+const ARCSEC: f64 = PI / 648_000.0;
+const DEG_PER_HOUR: f64 = PI / 648_000.0;
+const UG: f64 = 9.80665e-6;
+
+fn drift(lat_deg: f64, rate: f64, duration: f64, spec: Spec, initial_errors: Vec<Initial>) -> Drift {
+    Drift {
+        start: Start {
+            epoch: hifitime::Epoch::from_gregorian_utc_at_midnight(2026, 1, 1),
+            position: Geodetic::new(lat_deg.to_radians(), 0.0, 0.0),
+            attitude: [0.0; 3],
+            velocity: [0.0; 3],
+        },
+        duration,
+        imu: Imu { rate, spec },
+        initial_errors,
+        mechanization: Mechanization {
+            frame: Frame::T,
+            vertical: Vertical::Held,
+            gravity: Gravity::Somigliana,
+        },
+    }
+}
+
+fn source(instrument: Instrument, term: &str, process: &str, parameters: &[(&str, Value<'_>)]) -> Source {
+    Source::named(instrument, term, process, parameters).unwrap()
+}
+
+fn run(drift: &Drift, every: f64) -> (Scene, Vec<Curves>) {
+    let scene = Scene::new(drift, Some(every));
+    let all = cases(drift)
+        .into_iter()
+        .map(|case| curves(&scene, drift, case, 7, &Context::silent()).unwrap())
+        .collect();
+    (scene, all)
+}
+
+/// Every source of the shipped study's kind, at the sizes of the reference tables times `size`.
+fn deterministic(size: f64) -> (Spec, Vec<Initial>) {
+    use Instrument::{Accel, Gyro};
+    let g = 0.01 * DEG_PER_HOUR * size;
+    let a = 100.0 * UG * size;
+    let (p, m) = (1e-4 * size, 20.0 * ARCSEC * size);
+    let spec = Spec::from_sources([
+        source(Gyro, "bias", "constant", &[("value", g.into())]),
+        source(Accel, "bias", "constant", &[("value", a.into())]),
+        source(Gyro, "scale_factor", "constant", &[("value", p.into())]),
+        source(Accel, "scale_factor", "constant", &[("value", p.into())]),
+        source(Accel, "quadratic", "constant", &[("value", (10.0 * UG / 96.17 * size).into())]),
+        source(Gyro, "misalignment", "constant", &[("value", m.into())]),
+        source(Accel, "misalignment", "constant", &[("value", m.into())]),
+        source(Gyro, "bias", "ramp", &[("rate", (0.001 * DEG_PER_HOUR / 3600.0 * size).into())]),
+        source(Accel, "bias", "ramp", &[("rate", (10.0 * UG / 3600.0 * size).into())]),
+    ])
+    .unwrap();
+    let z = [0.0; 3];
+    let at = |k: usize, x: f64| std::array::from_fn(|i| if i == k { x * size } else { 0.0 });
+    let initial = |name, position, velocity, phi| Initial { name, position, velocity, phi };
+    let initial = vec![
+        initial("initial.tilt.n", z, z, at(0, 10.0 * ARCSEC)),
+        initial("initial.tilt.e", z, z, at(1, 10.0 * ARCSEC)),
+        initial("initial.heading", z, z, at(2, 60.0 * ARCSEC)),
+        initial("initial.velocity.n", z, at(0, 0.1), z),
+        initial("initial.velocity.e", z, at(1, 0.1), z),
+        initial("initial.position.n", at(0, 63.7), z, z),
+        initial("initial.position.e", at(1, 63.7), z, z),
+    ];
+    (spec, initial)
+}
+
+fn column(curves: &[Curves], scene: &Scene, name: &str) -> Vec<(String, f64)> {
+    let table = summary::table(scene, curves);
+    let values = table.numbers(name).unwrap();
+    curves.iter().zip(values).map(|(c, v)| (c.case.name.clone(), *v)).collect()
+}
+
+/// Half-difference against linear 1e-6 and linear against closed form 1e-9, for every source over 24 h at
+/// three latitudes. (theory: the half-difference keeps a third-order residue of 1e-6 for 0.01 deg/h over a day
+/// and more for all together, so the sizes here are a tenth of the tables'.)
+#[test]
+fn ways_agree_for_every_known_source() {
+    for lat in [0.0, 45.0, -75.0] {
+        let (spec, initial) = deterministic(0.1);
+        let (scene, curves) = run(&drift(lat, 4.0, 86_400.0, spec, initial), 600.0);
+        for (name, x) in column(&curves, &scene, "linear_exact") {
+            assert!(x.is_nan() || x < 1e-9, "lat {lat} {name}: linear against exact {x:e}");
+        }
+        for (name, x) in column(&curves, &scene, "half_linear") {
+            // The third order of thirty sources at once is larger than that of any one.
+            let limit = if name == "all" { 1e-5 } else { 1e-6 };
+            assert!(x.is_nan() || x < limit, "lat {lat} {name}: half-difference against linear {x:e}");
+        }
+        // Something must have moved for most sources, or the agreement says nothing.
+        let moved = column(&curves, &scene, "linear_exact").iter().filter(|(_, x)| x.is_finite()).count();
+        assert!(moved > 20, "lat {lat}: only {moved} sources move");
+    }
+}
+
+/// The difference of the non-linear run from the linear one is of second order: a tenth of the size leaves a
+/// hundredth of it.
+#[test]
+fn second_order_residue_falls_by_a_hundred() {
+    let residues = [1.0, 0.1].map(|size| {
+        let (spec, _) = deterministic(size);
+        let spec = spec.keep(|c| c.term().name() == "bias" && c.label() != "z");
+        let (_, curves) = run(&drift(45.0, 10.0, 86_400.0, spec, Vec::new()), 600.0);
+        let worst = |c: &Curves| {
+            let (a, b) = (c.of(Way::Nonlinear).unwrap(), c.of(Way::HalfDifference).unwrap());
+            // The even part alone: third order would spoil the factor.
+            a.iter().zip(b).map(|(a, b)| (a.dr - b.dr).norm()).fold(0.0, f64::max)
+        };
+        curves.iter().map(|c| (c.case.name.clone(), worst(c))).collect::<Vec<_>>()
+    });
+    let mut compared = 0;
+    for ((name, whole), (_, tenth)) in residues[0].iter().zip(&residues[1]) {
+        let ratio = whole / tenth;
+        // Below a decimetre the tenth's hundredth sinks into the error of the mechanization itself.
+        if *whole > 0.1 {
+            assert!((ratio - 100.0).abs() < 1.0, "{name}: {whole} m, at a tenth {tenth} m, ratio {ratio}");
+            compared += 1;
+        }
+    }
+    assert!(compared >= 5, "only {compared} sources have a second-order residue to compare");
+}
+
+/// Scale factor, quadratic term and misalignment on a base at rest are biases: their runs equal those of the
+/// equivalent biases (theory.md 1.1 by hand: level, heading 0, lat 45).
+#[test]
+fn static_excitation_makes_biases_of_the_other_terms() {
+    use Instrument::{Accel, Gyro};
+    let scene = Scene::new(&drift(45.0, 10.0, 1.0, Spec::new(), Vec::new()), None);
+    let (o, g) = (7.292115e-5 * 45f64.to_radians().cos(), scene.site.g);
+    let k = 1e-3;
+    // instrument, term, coefficient number, equivalent bias along x, y, z
+    let cases: [(Instrument, &str, usize, [f64; 3]); 8] = [
+        (Gyro, "scale_factor", 0, [k * o, 0.0, 0.0]),
+        (Gyro, "scale_factor", 2, [0.0, 0.0, -k * o]),
+        (Gyro, "misalignment", 2, [0.0, k * o, 0.0]),
+        (Gyro, "misalignment", 3, [0.0, -k * o, 0.0]),
+        (Accel, "scale_factor", 2, [0.0, 0.0, -k * g]),
+        (Accel, "misalignment", 1, [-k * g, 0.0, 0.0]),
+        (Accel, "misalignment", 3, [0.0, -k * g, 0.0]),
+        (Accel, "quadratic", 2, [0.0, 0.0, k * g * g]),
+    ];
+    for (instrument, term, j, bias) in cases {
+        let len = schuler_imu::term(term).unwrap().labels().len();
+        let mut value = vec![0.0; len];
+        value[j] = k;
+        let pair = [
+            source(instrument, term, "constant", &[("value", Value::Each(&value))]),
+            source(instrument, "bias", "constant", &[("value", Value::Each(&bias))]),
+        ];
+        let [a, b] = pair.map(|source| {
+            let spec = Spec::from_sources([source]).unwrap();
+            let drift = drift(45.0, 10.0, 6.0 * 3600.0, spec, Vec::new());
+            let (_, curves) = run(&drift, 600.0);
+            curves.iter().find(|c| c.case.name == "all").unwrap().of(Way::Nonlinear).unwrap().to_vec()
+        });
+        for (x, y) in a.iter().zip(&b) {
+            let apart = (x.dr - y.dr).norm();
+            assert!(apart <= 1e-9 * (1.0 + y.dr.norm()), "{term} {j}: {apart} m apart");
+        }
+    }
+}
+
+/// The single-axis formula after 24 h at latitude 45 deg in metres (theory.md, table 1.5, printed to 0.01 m), and the
+/// percentage by which it fails: against the end and the largest radial error of the 40-digit tables.
+#[test]
+fn textbook_formula_fails_as_the_tables_say() {
+    let (spec, initial) = deterministic(1.0);
+    let spec = spec.keep(|c| c.to_string().contains("bias.constant"));
+    let (scene, curves) = run(&drift(45.0, 1.0, 86_400.0, spec, initial), 300.0);
+    let expected = [
+        ("gyro.bias.constant.x", "gyro_N", [0.0, 26705.10]),
+        ("gyro.bias.constant.y", "gyro_E", [-26572.98, 0.0]),
+        ("gyro.bias.constant.z", "gyro_D", [-59410.82, 0.0]),
+        ("accel.bias.constant.x", "acc_N", [52.21, 0.0]),
+        ("accel.bias.constant.y", "acc_E", [0.0, 16.47]),
+        ("initial.tilt.n", "tilt_N", [0.0, -7.99]),
+        ("initial.tilt.e", "tilt_E", [25.31, 0.0]),
+        ("initial.heading", "heading", [8221.10, 0.0]),
+        ("initial.velocity.n", "vel_N", [31.96, 0.0]),
+        ("initial.velocity.e", "vel_E", [0.0, 18.21]),
+    ];
+    let failures = column(&curves, &scene, "single_axis_exact");
+    for (name, table, [n, e]) in expected {
+        let c = curves.iter().find(|c| c.case.name == name).unwrap();
+        let end = c.of(Way::SingleAxis).unwrap().last().unwrap().dr;
+        assert!((end[0] - n).abs() < 0.00501 && (end[1] - e).abs() < 0.00501, "{name}: {end:?}");
+        let path = format!("{}/../../tests/data/static_theory/lin_{table}.csv", env!("CARGO_MANIFEST_DIR"));
+        let text = std::fs::read_to_string(path).unwrap();
+        let position = |line: &str| {
+            let x: Vec<f64> = line.split(',').map(|x| x.parse().unwrap()).collect();
+            [x[6] * scene.site.r_m, x[7] * scene.site.r_n * scene.site.cos_lat]
+        };
+        let track: Vec<[f64; 2]> = text.lines().skip(1).map(position).collect();
+        let largest = track.iter().map(|[n, e]| n.hypot(*e)).fold(0.0, f64::max);
+        let last = track[track.len() - 1];
+        let expected = (n - last[0]).hypot(e - last[1]) / largest;
+        let (_, found) = failures.iter().find(|(f, _)| f == name).unwrap();
+        assert!((found / expected - 1.0).abs() < 1e-3, "{name}: {found} against {expected}");
+    }
+}
+
+/// Standard deviations against the table of an independent Van Loan computation (11 digits printed).
+#[test]
+fn noise_growth_meets_the_table() {
+    use Instrument::{Accel, Gyro};
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/static_theory/noise_rms.csv");
+    let text = std::fs::read_to_string(path).unwrap();
+    let root_hour = 60.0;
+    let arw = 0.001 * PI / 180.0 / root_hour;
+    let vrw = 10.0 * UG;
+    let rrw = 0.001 * DEG_PER_HOUR / root_hour;
+    let arrw = UG / root_hour;
+    let axes = |k: usize, x: f64| -> Vec<f64> { (0..3).map(|i| if i == k { x } else { 0.0 }).collect() };
+    let of = |case: &str| -> Option<Source> {
+        let each = |i, p, name: &str, v: Vec<f64>| source(i, "bias", p, &[(name, Value::Each(&v))]);
+        let same = |i, p, name: &str, v: f64| source(i, "bias", p, &[(name, v.into())]);
+        let markov = |i, sigma: f64, tau: f64| {
+            source(i, "bias", "gauss_markov", &[("sigma", sigma.into()), ("tau", tau.into())])
+        };
+        Some(match case {
+            "ARW_N" => each(Gyro, "white", "density", axes(0, arw)),
+            "ARW_E" => each(Gyro, "white", "density", axes(1, arw)),
+            "ARW_D" => each(Gyro, "white", "density", axes(2, arw)),
+            "ARW_all" => same(Gyro, "white", "density", arw),
+            "VRW_N" => each(Accel, "white", "density", axes(0, vrw)),
+            "VRW_E" => each(Accel, "white", "density", axes(1, vrw)),
+            "VRW_all" => same(Accel, "white", "density", vrw),
+            "RRW_all" => same(Gyro, "random_walk", "density", rrw),
+            "ARRW_all" => same(Accel, "random_walk", "density", arrw),
+            "GMg_all_1h" => markov(Gyro, 0.01 * DEG_PER_HOUR, 3600.0),
+            "GMg_all_100s" => markov(Gyro, 0.01 * DEG_PER_HOUR, 100.0),
+            "GMa_all_1h" => markov(Accel, 50.0 * UG, 3600.0),
+            "GMa_all_100s" => markov(Accel, 50.0 * UG, 100.0),
+            _ => return None,
+        })
+    };
+    let mut compared = 0;
+    let mut unknown = std::collections::BTreeSet::new();
+    let mut done: Vec<(String, Scene, Vec<schuler_strapdown::NavError>)> = Vec::new();
+    for line in text.lines().skip(1) {
+        let fields: Vec<&str> = line.split(',').collect();
+        let number = |k: usize| fields[k].parse::<f64>().unwrap();
+        let key = format!("{} {}", fields[0], fields[1]);
+        let Some(source) = of(fields[1]) else {
+            unknown.insert(fields[1].to_string());
+            continue;
+        };
+        if !done.iter().any(|(k, _, _)| *k == key) {
+            let drift = drift(number(0), 1.0, 86_400.0, Spec::from_sources([source]).unwrap(), Vec::new());
+            let scene = Scene::new(&drift, Some(12.0));
+            let case = cases(&drift).swap_remove(0);
+            let sigmas = Linear::complete(&scene).sigmas(&scene, &case);
+            done.push((key.clone(), scene, sigmas));
+        }
+        let (_, scene, sigmas) = done.iter().find(|(k, _, _)| *k == key).unwrap();
+        let row = scene.rows.iter().position(|&k| scene.time(k) == number(2)).unwrap();
+        let s = &sigmas[row];
+        let arcmin = 60.0 * ARCSEC;
+        let got =
+            [s.dv[0], s.dv[1], s.phi[0] / arcmin, s.phi[1] / arcmin, s.phi[2] / arcmin, s.dr[0], s.dr[1]];
+        for (k, got) in got.iter().enumerate() {
+            let expected = number(3 + k);
+            let scale = if expected == 0.0 { 1.0 } else { expected };
+            assert!((got - expected).abs() / scale < 1e-8, "{line}: column {k}: {got} against {expected}");
+            compared += 1;
+        }
+    }
+    assert!(compared == 13 * 7 * 7, "{compared} numbers compared");
+    assert!(unknown.is_empty(), "cases not compared: {unknown:?}");
+}
