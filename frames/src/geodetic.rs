@@ -21,8 +21,8 @@ impl Geodetic {
 
     /// From an Earth-fixed position, m.
     ///
-    /// Bowring's iteration on the parametric latitude, run to the rounding of `f64`; the poles are no
-    /// special case (there the longitude is 0). Points within 50 km of the Earth's centre have no
+    /// Bowring's iteration on the parametric latitude, run to the rounding of `f64` (there and back: 5e-9 m
+    /// on the ground, 9e-9 m at 10 000 km); the poles are no special case (there the longitude is 0). Points within 50 km of the Earth's centre have no
     /// unique geodetic coordinates: for them the result is meaningless.
     pub fn from_ecef(r_e: Vec3<E>) -> Self {
         let [x, y, z] = r_e.as_array();
@@ -39,8 +39,9 @@ impl Geodetic {
         }
         let n = libm::hypot(lat.0, lat.1);
         let (s, c) = (lat.0 / n, lat.1 / n);
-        // Stationary in latitude, so an error of lat enters h squared only.
-        let h = p * c + z * s - wgs84::A * libm::sqrt(1.0 - wgs84::E2 * s * s);
+        // From the foot point on the ellipsoid, along the normal: an error of lat enters h squared only.
+        let r_n = wgs84::r_n(s);
+        let h = (p - r_n * c) * c + (z - (1.0 - wgs84::E2) * r_n * s) * s;
         Geodetic { lat: libm::atan2(lat.0, lat.1), lon: libm::atan2(y, x), h }
     }
 

@@ -3,6 +3,7 @@
 mod attitude;
 mod field;
 mod geodesy;
+mod motion;
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
