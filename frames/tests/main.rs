@@ -3,6 +3,7 @@
 mod attitude;
 mod field;
 mod geodesy;
+mod mistakes;
 mod motion;
 
 use proptest::prelude::*;
