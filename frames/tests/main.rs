@@ -1,6 +1,7 @@
 //! Laws and oracles of the frames, one module a subject.
 
 mod attitude;
+mod dual;
 mod field;
 mod geodesy;
 mod mistakes;
