@@ -112,6 +112,14 @@ proptest! {
         prop_assert!((phi - exact).norm() < 1e-14 * exact.norm() + 1e-18, "{phi:?} {exact:?}");
     }
 
+    /// q and -q are one rotation: the error is the same to the last bit.
+    #[test]
+    fn phi_does_not_see_the_sign_of_a_quaternion(truth in rotations::<T, B>(), v in vectors::<T>(1.0), exponent in -14..=0i32) {
+        let computed = with_phi(truth, v * 10f64.powi(exponent));
+        let minus = Rot::claim(computed.as_quaternion().map(|c| -c));
+        prop_assert_eq!(phi_between(minus, truth), phi_between(computed, truth));
+    }
+
     #[test]
     fn norms_are_mended(q in rotations::<T, B>(), k in 0.5..2.0f64) {
         let norm = |q: Rot<T, B>| q.as_quaternion().iter().map(|c| c * c).sum::<f64>().sqrt();
