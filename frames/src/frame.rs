@@ -35,3 +35,7 @@ frame!(
     /// Body: forward-right-down.
     B, "b"
 );
+frame!(
+    /// Local level east-north-up, for the edges only: nothing inside computes in it.
+    Enu, "enu"
+);

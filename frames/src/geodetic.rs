@@ -21,17 +21,18 @@ impl Geodetic {
 
     /// From an Earth-fixed position, m.
     ///
-    /// Bowring's iteration on the parametric latitude, run to the rounding of `f64`; the poles are no
-    /// special case (there the longitude is 0). Points within 50 km of the Earth's centre have no
-    /// unique geodetic coordinates: for them the result is meaningless.
+    /// Bowring's iteration on the parametric latitude, run to the rounding of `f64` (there and back: 5e-9 m
+    /// on the ground, 9e-9 m at 10 000 km), from 5000 km below the ellipsoid upwards. The poles are no
+    /// special case (there the longitude is 0). Points within 50 km of the Earth's centre have no unique
+    /// geodetic coordinates: for them the result is meaningless.
     pub fn from_ecef(r_e: Vec3<E>) -> Self {
         let [x, y, z] = r_e.as_array();
         let p = libm::hypot(x, y);
-        // Parametric latitude beta as (sin, cos); first guess: exact on the surface, good to 1e-3 far out.
-        let mut beta = (z * (1.0 + wgs84::EP2 * wgs84::B / libm::hypot(p, z)), p * (1.0 - wgs84::F));
+        // Parametric latitude beta as (sin, cos) times some length; Bowring's first guess.
+        let mut beta = (z * (1.0 - wgs84::F) * (1.0 + wgs84::EP2 * wgs84::B / libm::hypot(p, z)), p);
         let mut lat = (0.0, 0.0);
-        // The error falls by more than 1e-4 in each round, so that three rounds are one too many.
-        for _ in 0..3 {
+        // One round leaves 3e-13 rad on the ground, two leave rounding.
+        for _ in 0..2 {
             let n = libm::hypot(beta.0, beta.1);
             let (s, c) = (beta.0 / n, beta.1 / n);
             lat = (z + wgs84::EP2 * wgs84::B * s * s * s, p - wgs84::E2 * wgs84::A * c * c * c);
@@ -39,8 +40,9 @@ impl Geodetic {
         }
         let n = libm::hypot(lat.0, lat.1);
         let (s, c) = (lat.0 / n, lat.1 / n);
-        // Stationary in latitude, so an error of lat enters h squared only.
-        let h = p * c + z * s - wgs84::A * libm::sqrt(1.0 - wgs84::E2 * s * s);
+        // From the foot point on the ellipsoid, along the normal: an error of lat enters h squared only.
+        let r_n = wgs84::r_n(s);
+        let h = (p - r_n * c) * c + (z - (1.0 - wgs84::E2) * r_n * s) * s;
         Geodetic { lat: libm::atan2(lat.0, lat.1), lon: libm::atan2(y, x), h }
     }
 

@@ -37,20 +37,19 @@ impl Gravity {
     /// Change of gravity g^t with latitude, m/s² per rad, and with height, 1/s²:
     /// `(dg/dL, dg/dh)`, each in local axes that move along.
     ///
-    /// Analytic for `Somigliana`; for `Normal` the central difference of the exact field over 30 m on
-    /// either side, good to 1e-9 of its size.
+    /// Analytic for `Somigliana`; for `Normal` central differences of the exact field over 300 m
+    /// of latitude and 30 m of height to either side, good to 1e-8 of its largest values.
     pub fn gradient_t(self, position: Geodetic) -> (Vec3<T>, Vec3<T>) {
         match self {
             Gravity::Normal => {
-                const STEP: f64 = 30.0;
+                // Each where rounding of g and the curvature of its change cost about the same.
+                const LAT_STEP: f64 = 300.0 / wgs84::A;
+                const H_STEP: f64 = 30.0;
                 let Geodetic { lat, lon, h } = position;
-                let slope = |dlat: f64, dh: f64, per: f64| {
-                    let ahead = self.gravity_t(Geodetic::new(lat + dlat, lon, h + dh));
-                    let behind = self.gravity_t(Geodetic::new(lat - dlat, lon, h - dh));
-                    (ahead - behind) * (0.5 / per)
-                };
-                let dlat = STEP / wgs84::A;
-                (slope(dlat, 0.0, dlat), slope(0.0, STEP, STEP))
+                let at = |lat: f64, h: f64| self.gravity_t(Geodetic::new(lat, lon, h));
+                let dlat = at(lat + LAT_STEP, h) - at(lat - LAT_STEP, h);
+                let dh = at(lat, h + H_STEP) - at(lat, h - H_STEP);
+                (dlat * (0.5 / LAT_STEP), dh * (0.5 / H_STEP))
             }
             Gravity::Somigliana => {
                 let (s, c) = libm::sincos(position.lat);

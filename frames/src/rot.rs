@@ -14,7 +14,7 @@ use crate::{Dcm, Frame, Real, RotationError, Vec3};
 ///
 /// `q` and `-q` are the same rotation, and `==` compares components: to compare rotations use
 /// [`phi_between`](crate::phi_between). Products of rotations leave norm 1 by rounding, 1e-16 a step:
-/// long chains need [`Rot::tightened`].
+/// long chains need [`Rot::normalized`] now and then.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rot<To: Frame, From: Frame, S = f64>([S; 4], PhantomData<(To, From)>);
 
@@ -39,15 +39,6 @@ impl<To: Frame, From: Frame, S: Real> Rot<To, From, S> {
     pub fn inverse(self) -> Rot<From, To, S> {
         let [w, x, y, z] = self.0;
         Rot::claim([w, -x, -y, -z])
-    }
-
-    /// Brought back to norm 1 after rounding, for hot loops: one Newton step without square root or division.
-    /// A norm of 1 + e becomes 1 - 1.5 e².
-    #[inline(always)]
-    pub fn tightened(self) -> Self {
-        let [w, x, y, z] = self.0;
-        let k = (w * w + x * x + y * y + z * z) * -0.5 + 1.5;
-        Rot::claim([w * k, x * k, y * k, z * k])
     }
 
     /// Direction cosine matrix; cheaper than the quaternion when several vectors are turned.

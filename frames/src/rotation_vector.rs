@@ -1,6 +1,6 @@
 //! Rotation vectors: the exponential map and its inverse.
 
-use crate::{Frame, Real, Rot, Vec3};
+use crate::{Frame, Rot, Vec3};
 
 impl<To: Frame, From: Frame> Rot<To, From> {
     /// exp([v ×]): the turn by the angle |v| (rad, any size) about `v`. The components of `v` are the
@@ -30,19 +30,4 @@ pub(crate) fn log<F: Frame>(w: f64, v: Vec3<F>) -> Vec3<F> {
     let n = v.norm();
     // Below 1e-160 the square of the norm underflows; there the limit is exact.
     v * if n == 0.0 { 2.0 / w } else { 2.0 * libm::atan2(n, w) / n }
-}
-
-impl<To: Frame, From: Frame, S: Real> Rot<To, From, S> {
-    /// exp([v ×]) for hot loops: power series without trigonometry, division or square root.
-    /// Within rounding of [`Rot::from_rotation_vector`] up to |v| = 0.25 rad (at 100 Hz: 1400 deg/s);
-    /// beyond, the error grows as |v|¹⁰ (1e-13 at 0.5 rad).
-    #[inline(always)]
-    pub fn exp_small(v: Vec3<To, S>) -> Self {
-        // y = (|v| / 2)²; the series of cos √y and of sin √y / √y.
-        let y = v.norm_squared() * 0.25;
-        let c = (((y * (1.0 / 40320.0) - 1.0 / 720.0) * y + 1.0 / 24.0) * y - 0.5) * y + 1.0;
-        let k = (((y * (1.0 / 362880.0) - 1.0 / 5040.0) * y + 1.0 / 120.0) * y - 1.0 / 6.0) * y + 1.0;
-        let [x, y, z] = (v * (k * 0.5)).as_array();
-        Self::claim([c, x, y, z])
-    }
 }

@@ -50,6 +50,22 @@ fn normal_field_against_table() {
     }
 }
 
+/// The same table: derivatives of the components, to 1e-8 of 0.05 m/s² per rad and 1e-9 of 3e-6 1/s².
+#[test]
+fn gradient_of_the_normal_field_against_table() {
+    for row in crate::table("normal_field/points.csv") {
+        let (dlat, dh) = Gravity::Normal.gradient_t(Geodetic::new(row[0], row[1], row[2]));
+        for (got, want, tolerance) in [
+            (dlat[0], row[8], 5e-10),
+            (dlat[2], row[9], 5e-10),
+            (dh[0], row[10], 3e-15),
+            (dh[2], row[11], 3e-15),
+        ] {
+            assert!((got - want).abs() < tolerance, "{got} for {want} at {row:?}");
+        }
+    }
+}
+
 /// On the ellipsoid both models are the same theory; the printed gamma_e and k have 11 to 12 digits.
 #[test]
 fn models_agree_on_the_ellipsoid() {

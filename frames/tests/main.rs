@@ -1,8 +1,11 @@
 //! Laws and oracles of the frames, one module a subject.
 
 mod attitude;
+mod dual;
 mod field;
 mod geodesy;
+mod mistakes;
+mod motion;
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;

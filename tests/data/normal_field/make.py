@@ -25,23 +25,36 @@ def potential(x, y, z):
     return v + omega**2 * (x * x + y * y) / 2
 
 
-def row(lat_deg, lon_deg, h):
-    # The doubles that a reader of the table will use, not the exact decimal fractions.
-    lat, lon, h = mpf(float(lat_deg * pi / 180)), mpf(float(lon_deg * pi / 180)), mpf(h)
+def position(lat, lon, h):
     n = a / sqrt(1 - e2 * sin(lat) ** 2)
-    r = [(n + h) * cos(lat) * cos(lon), (n + h) * cos(lat) * sin(lon), ((1 - e2) * n + h) * sin(lat)]
+    return [(n + h) * cos(lat) * cos(lon), (n + h) * cos(lat) * sin(lon), ((1 - e2) * n + h) * sin(lat)]
+
+
+def gravity(lat, lon, h):
+    """North and down components."""
+    r = position(lat, lon, h)
     g = [diff(potential, tuple(r), tuple(int(i == k) for i in range(3))) for k in range(3)]
     north = [-sin(lat) * cos(lon), -sin(lat) * sin(lon), cos(lat)]
     down = [-cos(lat) * cos(lon), -cos(lat) * sin(lon), -sin(lat)]
-    gn, gd = (sum(p * q for p, q in zip(axis, g)) for axis in (north, down))
-    if abs(gn) < mpf(10) ** -25:
-        gn = mpf(0)
-    return [repr(float(lat)), repr(float(lon)), repr(float(h))] + [nstr(v, 25) for v in (*r, gn, gd)]
+    return [sum(p * q for p, q in zip(axis, g)) for axis in (north, down)]
+
+
+def row(lat_deg, lon_deg, h):
+    # The doubles that a reader of the table will use, not the exact decimal fractions.
+    lat, lon, h = mpf(float(lat_deg * pi / 180)), mpf(float(lon_deg * pi / 180)), mpf(h)
+    # A central difference with a step of 1e-10 is exact to 1e-20.
+    step = mpf(10) ** -10
+    dlat = [(p - q) / (2 * step) for p, q in zip(gravity(lat + step, lon, h), gravity(lat - step, lon, h))]
+    step *= a
+    dh = [(p - q) / (2 * step) for p, q in zip(gravity(lat, lon, h + step), gravity(lat, lon, h - step))]
+    values = [v if abs(v) > mpf(10) ** -25 else mpf(0) for v in gravity(lat, lon, h)]
+    values = position(lat, lon, h) + values + [v if abs(v) > mpf(10) ** -19 else mpf(0) for v in dlat + dh]
+    return [repr(float(lat)), repr(float(lon)), repr(float(h))] + [nstr(v, 25) for v in values]
 
 
 points = [(la, lo, h) for la in (-90, -89.9999, -60, -33, -1e-4, 0, 15, 45, 75, 89.9, 90)
           for lo, h in ((0, 0), (121.5, -10000), (-77, 1000), (179.9, 12000), (-150, 400000), (30, 10000000))]
 with open("points.csv", "w") as out:
-    out.write("lat_rad,lon_rad,h_m,x_m,y_m,z_m,g_n_mps2,g_d_mps2\n")
+    out.write("lat_rad,lon_rad,h_m,x_m,y_m,z_m,g_n_mps2,g_d_mps2,dgn_dlat,dgd_dlat,dgn_dh,dgd_dh\n")
     for p in points:
         out.write(",".join(row(*map(mpf, p))) + "\n")
