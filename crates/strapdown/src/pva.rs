@@ -1,6 +1,6 @@
 //! Position, velocity and attitude.
 
-use schuler_frames::{B, Geodetic, Rot, T, Vec3, phi_between, wgs84};
+use schuler_frames::{B, Geodetic, Rot, T, Vec3, phi_between, position_error};
 
 /// Position, velocity and attitude at one time: what a navigator knows and what is true.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,21 +25,10 @@ pub struct NavError {
 }
 
 impl NavError {
-    /// The error of `computed` against `truth`. The longitude difference is taken the short way round.
+    /// The error of `computed` against `truth`.
     pub fn between(computed: &Pva, truth: &Pva) -> Self {
-        use core::f64::consts::{PI, TAU};
-        let (p, q) = (computed.position, truth.position);
-        let s = libm::sin(q.lat);
-        let mut dlon = p.lon - q.lon;
-        if dlon.abs() > PI {
-            dlon -= TAU * libm::rint(dlon / TAU);
-        }
         NavError {
-            dr: Vec3::new(
-                (p.lat - q.lat) * (wgs84::r_m(s) + q.h),
-                dlon * (wgs84::r_n(s) + q.h) * libm::cos(q.lat),
-                q.h - p.h,
-            ),
+            dr: position_error(computed.position, truth.position),
             dv: computed.v_t - truth.v_t,
             phi: phi_between(computed.c_tb, truth.c_tb),
         }

@@ -1,6 +1,6 @@
 //! The full non-linear run: injector, mechanization, true minus computed.
 
-use schuler_frames::{Geodetic, Vec3, with_phi};
+use schuler_frames::{Vec3, with_phi, with_position_error};
 use schuler_imu::{Imu, Sample, Stream};
 use schuler_strapdown::{Increments, LocalLevel, NavError, Pva};
 
@@ -47,14 +47,9 @@ fn increments(sample: &Sample) -> Increments {
 
 /// The computed state at the start: truth plus the initial errors times `sign`.
 fn start(scene: &Scene, case: &Case, sign: f64) -> Pva {
-    let [r, v, phi] = case.initial_errors().map(|part| part.map(|x| sign * x));
-    let Pva { position: Geodetic { lat, lon, h }, v_t, c_tb } = scene.truth;
-    let site = &scene.site;
-    Pva {
-        position: Geodetic::new(lat + r[0] / site.r_m, lon + r[1] / (site.r_n * site.cos_lat), h - r[2]),
-        v_t: v_t + Vec3::claim(v),
-        c_tb: with_phi(c_tb, Vec3::claim(phi)),
-    }
+    let [r, v, phi] = case.initial_errors().map(|part| Vec3::claim(part.map(|x| sign * x)));
+    let Pva { position, v_t, c_tb } = scene.truth;
+    Pva { position: with_position_error(position, r), v_t: v_t + v, c_tb: with_phi(c_tb, phi) }
 }
 
 /// Half the difference of the +e and -e runs: the part of odd order in the error.
