@@ -2,4 +2,5 @@
 
 mod api;
 mod philox;
+mod terms;
 mod unit;
