@@ -26,12 +26,14 @@ impl ProcessKind for Constant {
                 name: "value",
                 unit: ParameterUnit::Coefficient(0),
                 range: Range::Any,
+                example: 1.0,
                 doc: "the fixed value",
             }],
             &[Parameter {
                 name: "sigma",
                 unit: ParameterUnit::Coefficient(0),
                 range: Range::NonNegative,
+                example: 1.0,
                 doc: "standard deviation from run to run",
             }],
         ];

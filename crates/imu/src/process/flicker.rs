@@ -1,6 +1,6 @@
 use core::f64::consts::PI;
 
-use libm::{ceil, log, pow};
+use libm::{ceil, log, pow, sqrt};
 
 use super::gauss_markov::GaussMarkov;
 use super::{
@@ -15,29 +15,29 @@ use crate::Unit;
 /// it the curve falls off on both sides.
 ///
 /// The density B²/(2 pi f) is the integral of Gauss-Markov processes of variance B²/pi per unit of ln
-/// tau. Poles spaced by a factor of at most 7.5 from 0.2 `tau_min` to 2 `tau_max` sample it, the first
-/// and the last with 1.17 times the variance in place of the poles beyond them; these figures keep the
-/// ripple below 1 %.
+/// tau. Poles spaced by a factor of 7, from at most 0.2 `tau_min` to at least 2 `tau_max`, sample it, the
+/// first and the last with 1.2 times the variance in place of the poles beyond them; these figures keep
+/// the ripple below 1 %.
 pub struct Flicker;
 
-const LARGEST_RATIO: f64 = 7.5;
-const END_WEIGHT: f64 = 1.17;
+const RATIO: f64 = 7.0;
+const END_WEIGHT: f64 = 1.2;
 
-/// Number of poles, the first time constant and the ratio of one to the next.
-fn poles(a: &Arguments) -> (usize, f64, f64) {
+/// Number of poles and the first time constant. What the last gap has too much is shared by both ends.
+fn poles(a: &Arguments) -> (usize, f64) {
     let [_, tau_min, tau_max, ..] = a.values;
-    let (first, last) = (0.2 * tau_min, 2.0 * tau_max);
-    let gaps = ceil(log(last / first) / log(LARGEST_RATIO));
-    (gaps as usize + 1, first, pow(last / first, 1.0 / gaps))
+    let width = 10.0 * tau_max / tau_min;
+    let gaps = ceil(log(width) / log(RATIO));
+    (gaps as usize + 1, 0.2 * tau_min * sqrt(width / pow(RATIO, gaps)))
 }
 
 /// Parameters of pole `k` as a Gauss-Markov process.
 fn pole(a: &Arguments, k: usize) -> Arguments {
-    let (n, first, ratio) = poles(a);
+    let (n, first) = poles(a);
     let weight = if k == 0 || k + 1 == n { END_WEIGHT } else { 1.0 };
-    let sigma = a.values[0] * libm::sqrt(weight * log(ratio) / PI);
+    let sigma = a.values[0] * sqrt(weight * log(RATIO) / PI);
     let mut values = Arguments::EMPTY.values;
-    (values[0], values[1]) = (sigma, first * pow(ratio, k as f64));
+    (values[0], values[1]) = (sigma, first * pow(RATIO, k as f64));
     Arguments { form: 0, values }
 }
 
@@ -60,18 +60,21 @@ impl ProcessKind for Flicker {
                 name: "instability",
                 unit: ParameterUnit::Coefficient(0),
                 range: Range::NonNegative,
+                example: 1.0,
                 doc: "B; the Allan deviation is 0.6643 B",
             },
             Parameter {
                 name: "tau_min",
                 unit: ParameterUnit::Own(Unit::SECOND),
                 range: Range::Positive,
+                example: 0.5,
                 doc: "shortest averaging time of the band",
             },
             Parameter {
                 name: "tau_max",
                 unit: ParameterUnit::Own(Unit::SECOND),
                 range: Range::Positive,
+                example: 50.0,
                 doc: "longest averaging time of the band",
             },
         ]];

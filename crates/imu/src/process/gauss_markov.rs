@@ -27,12 +27,14 @@ impl ProcessKind for GaussMarkov {
                 name: "sigma",
                 unit: ParameterUnit::Coefficient(0),
                 range: Range::NonNegative,
+                example: 1.0,
                 doc: "standard deviation at any time",
             },
             Parameter {
                 name: "tau",
                 unit: ParameterUnit::Own(Unit::SECOND),
                 range: Range::Positive,
+                example: 2.0,
                 doc: "correlation time",
             },
         ]];

@@ -123,6 +123,8 @@ pub struct Parameter {
     pub unit: ParameterUnit,
     /// The values that make sense.
     pub range: Range,
+    /// A number that makes sense, in SI units and for a coefficient of the size of one.
+    pub example: f64,
     /// One line.
     pub doc: &'static str,
 }

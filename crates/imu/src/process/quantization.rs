@@ -26,6 +26,7 @@ impl ProcessKind for Quantization {
             name: "q",
             unit: ParameterUnit::Coefficient(2),
             range: Range::NonNegative,
+            example: 0.5,
             doc: "standard deviation of the integral's error, least significant bit over sqrt(12)",
         }]];
         FORMS

@@ -26,12 +26,14 @@ impl ProcessKind for Ramp {
                 name: "rate",
                 unit: ParameterUnit::Coefficient(-2),
                 range: Range::Any,
+                example: 0.5,
                 doc: "the fixed rate R",
             }],
             &[Parameter {
                 name: "sigma",
                 unit: ParameterUnit::Coefficient(-2),
                 range: Range::NonNegative,
+                example: 0.5,
                 doc: "standard deviation of the rate from run to run",
             }],
         ];

@@ -25,6 +25,7 @@ impl ProcessKind for RandomWalk {
             name: "density",
             unit: ParameterUnit::Coefficient(-1),
             range: Range::NonNegative,
+            example: 1.0,
             doc: "root of the spectral density of its derivative, K",
         }]];
         FORMS

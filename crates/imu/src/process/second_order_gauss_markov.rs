@@ -30,12 +30,14 @@ impl ProcessKind for SecondOrderGaussMarkov {
                 name: "sigma",
                 unit: ParameterUnit::Coefficient(0),
                 range: Range::NonNegative,
+                example: 1.0,
                 doc: "standard deviation at any time",
             },
             Parameter {
                 name: "tau",
                 unit: ParameterUnit::Own(Unit::SECOND),
                 range: Range::Positive,
+                example: 2.0,
                 doc: "time constant of each of the two poles",
             },
         ]];
@@ -130,7 +132,7 @@ fn mean_response(s: f64) -> f64 {
 }
 
 /// Calls `add(s, weight)` for the nodes of a quadrature over 0 to `end` of functions like
-/// polynomials times e^-s: Gauss-Legendre with five points on panels of at most 1/2, and beyond
+/// polynomials times e^-s: Gauss-Legendre with five points on panels of at most 1/4, and beyond
 /// 40, where only constants are left, one panel.
 fn quadrature(end: f64, mut add: impl FnMut(f64, f64)) {
     // Abramowitz and Stegun 25.4.30, n = 5.
@@ -142,7 +144,7 @@ fn quadrature(end: f64, mut add: impl FnMut(f64, f64)) {
         (0.906_179_845_938_664, 0.236_926_885_056_189),
     ];
     let fine = end.min(40.0);
-    let panels = libm::ceil(2.0 * fine);
+    let panels = libm::ceil(4.0 * fine);
     let mut panel = |from: f64, width: f64| {
         for (x, w) in NODES {
             add(from + 0.5 * width * (1.0 + x), 0.5 * width * w);

@@ -14,6 +14,7 @@ const AMPLITUDE: Parameter = Parameter {
     name: "amplitude",
     unit: ParameterUnit::Coefficient(0),
     range: Range::NonNegative,
+    example: 1.0,
     doc: "amplitude A",
 };
 
@@ -21,6 +22,7 @@ const FREQUENCY: Parameter = Parameter {
     name: "frequency",
     unit: ParameterUnit::Own(Unit::HERTZ),
     range: Range::Positive,
+    example: 0.3,
     doc: "frequency f0, cycles per second",
 };
 
@@ -28,6 +30,7 @@ const PHASE: Parameter = Parameter {
     name: "phase",
     unit: ParameterUnit::Own(Unit::RADIAN),
     range: Range::Any,
+    example: 0.7,
     doc: "phase at t = 0",
 };
 

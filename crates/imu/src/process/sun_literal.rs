@@ -29,8 +29,8 @@ pub struct SunLiteral;
 
 const COEFFICIENT: f64 = 0.2;
 
-const fn kelvin(name: &'static str, doc: &'static str) -> Parameter {
-    Parameter { name, unit: ParameterUnit::Own(Unit::KELVIN), range: Range::NonNegative, doc }
+const fn kelvin(name: &'static str, doc: &'static str, example: f64) -> Parameter {
+    Parameter { name, unit: ParameterUnit::Own(Unit::KELVIN), range: Range::NonNegative, example, doc }
 }
 
 /// The added bias of equation (4).
@@ -58,17 +58,19 @@ impl ProcessKind for SunLiteral {
                 name: "b0",
                 unit: ParameterUnit::Coefficient(0),
                 range: Range::Any,
+                example: 0.5,
                 doc: "value at t = 0",
             },
             Parameter {
                 name: "b1",
                 unit: ParameterUnit::Coefficient(-1),
                 range: Range::NonNegative,
+                example: 1.0,
                 doc: "root of the spectral density of w",
             },
-            kelvin("t", "temperature T"),
-            kelvin("t_min", "lowest temperature T_min"),
-            kelvin("t_kal", "calibration temperature T_kal"),
+            kelvin("t", "temperature T", 303.15),
+            kelvin("t_min", "lowest temperature T_min", 233.15),
+            kelvin("t_kal", "calibration temperature T_kal", 298.15),
         ]];
         FORMS
     }

@@ -23,6 +23,7 @@ impl ProcessKind for White {
             name: "density",
             unit: ParameterUnit::Coefficient(1),
             range: Range::NonNegative,
+            example: 1.0,
             doc: "root of the two-sided spectral density, N",
         }]];
         FORMS
