@@ -55,6 +55,14 @@ pub enum Error {
         /// What it must be.
         range: Range,
     },
+    /// Numbers that do not go together.
+    #[error("process `{process}`: {reason}")]
+    Conflict {
+        /// Name of the process.
+        process: &'static str,
+        /// What is wrong.
+        reason: &'static str,
+    },
     /// A list of the wrong length.
     #[error(
         "`{name}` of process `{process}` is a list of {found} numbers, but {need} are needed (or one number for all)"

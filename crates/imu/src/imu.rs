@@ -1,14 +1,14 @@
 //! The injector: true motion in, measured motion out.
 
+use crate::bank::{Bank, BankState, MAX_FIRST, MAX_SECOND, MAX_WHITE};
 use crate::error::Error;
-use crate::process::Step;
-use crate::random::{Address, Key};
+use crate::process::Shape;
 use crate::sample::Sample;
-use crate::term::{MAX_COEFFICIENTS, Term};
-use crate::{Component, Input, Instrument, Motion, Spec, Stream, Truth};
+use crate::term::{Coefficients, MAX_COEFFICIENTS, Term};
+use crate::{Component, Input, Instrument, Motion, Spec, Stream, TERMS, Truth};
 
-/// Most coefficients that can evolve in one IMU.
-pub const MAX_LANES: usize = 192;
+/// A term may stand on each instrument.
+const MAX_GROUPS: usize = 2 * TERMS.len();
 
 /// An IMU with its errors.
 ///
@@ -18,66 +18,67 @@ pub const MAX_LANES: usize = 192;
 #[derive(Clone, Debug)]
 pub struct Imu {
     spec: Spec,
-    key: Key,
-    lanes: [Option<Lane>; MAX_LANES],
-    n: usize,
-    /// Step length for which the lanes hold their discretisation.
-    dt: f64,
+    bank: Bank,
     state: State,
-    /// Interval mean of each lane and what the instruments saw, kept for the ledger.
-    means: [f64; MAX_LANES],
-    inputs: [Option<Input>; 2],
+    groups: [Option<Group>; MAX_GROUPS],
+    /// Place of the coefficient that each moving part adds to: group times [`MAX_COEFFICIENTS`] plus
+    /// number of the coefficient.
+    targets: Targets,
+    inputs: Option<[Input; 2]>,
 }
 
 /// Everything in an IMU that changes from step to step: save it, restore it, and the samples
 /// repeat bit for bit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State {
-    step: u64,
-    x: [[f64; 2]; MAX_LANES],
+    bank: BankState,
 }
 
-/// One coefficient of one source.
+/// The coefficients of one term on one instrument, summed over its sources.
 #[derive(Clone, Copy, Debug)]
-struct Lane {
-    component: Component,
-    step: Step,
-    addresses: [Address; 3],
+struct Group {
+    instrument: Instrument,
+    term: &'static dyn Term,
+    /// Sum of the constant ones.
+    base: Coefficients,
+}
+
+#[derive(Clone, Debug)]
+struct Targets {
+    white: ([u16; MAX_WHITE], usize),
+    first: ([u16; MAX_FIRST], usize),
+    second: ([u16; MAX_SECOND], usize),
 }
 
 impl Imu {
     /// An IMU with the errors of `spec`, in the run that `stream` names.
     ///
     /// # Errors
-    /// The specification has more than [`MAX_LANES`] coefficients.
+    /// The specification has more coefficients than the fixed capacity holds.
     pub fn new(spec: &Spec, stream: Stream) -> Result<Imu, Error> {
-        let n = spec.components().count();
-        if n > MAX_LANES {
-            return Err(Error::Capacity { what: "coefficients", need: n, capacity: MAX_LANES });
-        }
+        let mut bank = Bank::new(spec)?;
+        let state = State { bank: bank.start(spec, stream.key()) };
         let mut imu = Imu {
             spec: spec.clone(),
-            key: stream.key(),
-            lanes: [None; MAX_LANES],
-            n,
-            dt: 0.0,
-            state: State { step: 0, x: [[0.0; 2]; MAX_LANES] },
-            means: [0.0; MAX_LANES],
-            inputs: [None; 2],
+            bank,
+            state,
+            groups: [None; MAX_GROUPS],
+            targets: Targets {
+                white: ([0; MAX_WHITE], 0),
+                first: ([0; MAX_FIRST], 0),
+                second: ([0; MAX_SECOND], 0),
+            },
+            inputs: None,
         };
-        for (i, component) in spec.components().enumerate() {
-            let address = |draw| Address::new(&component, 0, draw);
-            let start = address(3);
-            let normals = [imu.key.normal(start, 0), imu.key.normal(start, 1)];
-            let evolution = component.evolution();
-            imu.state.x[i] = evolution.kind.initial(&evolution.arguments, normals);
-            imu.lanes[i] = Some(Lane {
-                component,
-                step: Step::default(),
-                addresses: [address(0), address(1), address(2)],
-            });
-        }
+        imu.group();
         Ok(imu)
+    }
+
+    /// Starts again at t = 0 as another run of the same specification.
+    pub fn restart(&mut self, stream: Stream) {
+        self.state.bank = self.bank.start(&self.spec, stream.key());
+        self.inputs = None;
+        self.group();
     }
 
     /// The next sample, over an interval of `dt` seconds in which `truth` happened.
@@ -88,13 +89,12 @@ impl Imu {
         if !(dt > 0.0 && dt.is_finite()) {
             return Sample { dt, ..Sample::default() };
         }
-        if dt != self.dt {
-            self.discretise(dt);
-        }
-        self.advance();
+        self.bank.discretise(&self.spec, dt);
+        self.bank.advance(&mut self.state.bank);
         let calibration = self.spec.calibration_temperature;
-        self.inputs = Instrument::ALL.map(|i| Some(Input::new(i, truth, dt, calibration)));
-        let [omega_error, f_error] = self.errors();
+        let inputs = Instrument::ALL.map(|i| Input::new(i, truth, dt, calibration));
+        let [omega_error, f_error] = self.errors(&inputs);
+        self.inputs = Some(inputs);
         let add = |increment: [f64; 3], error: [f64; 3]| [0, 1, 2].map(|i| increment[i] + error[i] * dt);
         let scale = |mean: [f64; 3], error: [f64; 3]| [0, 1, 2].map(|i| (mean[i] + error[i]) * dt);
         let (dtheta, dv) = match truth.motion {
@@ -129,69 +129,78 @@ impl Imu {
 
     /// Contribution of every component to the last sample: measured minus true, mean over the
     /// interval, per axis, rad/s or m/s². Over an instrument they sum to its error within rounding.
+    /// Empty before the first step.
     pub fn ledger(&self) -> impl Iterator<Item = (Component, [f64; 3])> {
-        self.lanes().zip(self.means).filter_map(|(lane, mean)| {
-            let c = lane.component;
-            let input = self.inputs[c.instrument() as usize].as_ref()?;
+        self.bank.places(&self.spec).filter_map(|(c, place)| {
+            let input = &self.inputs.as_ref()?[c.instrument() as usize];
+            let mean: f64 = self.bank.means.at(place).iter().sum();
             Some((c, c.term().regressor(input).columns()[c.coefficient()].map(|g| g * mean)))
         })
     }
 
-    fn lanes(&self) -> impl Iterator<Item = &Lane> {
-        self.lanes[..self.n].iter().flatten()
-    }
-
-    fn discretise(&mut self, dt: f64) {
-        for lane in self.lanes[..self.n].iter_mut().flatten() {
-            let e = lane.component.evolution();
-            let mut step = e.kind.step(&e.arguments, dt);
-            step.mean = step.mean.map(|m| m * e.gain);
-            step.noise[2] = step.noise[2].map(|m| m * e.gain);
-            lane.step = step;
+    /// Sorts the coefficients by the term that they belong to.
+    fn group(&mut self) {
+        self.groups = [None; MAX_GROUPS];
+        for targets in [&mut self.targets.white.1, &mut self.targets.first.1, &mut self.targets.second.1] {
+            *targets = 0;
         }
-        self.dt = dt;
-    }
-
-    fn advance(&mut self) {
-        let k = self.state.step;
-        for (i, lane) in self.lanes[..self.n].iter().flatten().enumerate() {
-            let (s, [x1, x2]) = (&lane.step, self.state.x[i]);
-            let used = |j: usize| s.noise.iter().any(|row| row[j] != 0.0);
-            let w = [0, 1, 2].map(|j| if used(j) { self.key.normal(lane.addresses[j], k) } else { 0.0 });
-            let noise = s.noise.map(|n| n[0] * w[0] + n[1] * w[1] + n[2] * w[2]);
-            self.means[i] = s.mean[0] * x1 + s.mean[1] * x2 + noise[2];
-            self.state.x[i] = [0, 1].map(|r| s.phi[r][0] * x1 + s.phi[r][1] * x2 + noise[r]);
-        }
-        self.state.step += 1;
-    }
-
-    /// Output error of each instrument: components of the same term share one evaluation of it.
-    fn errors(&self) -> [[f64; 3]; 2] {
-        let mut errors = [[0.0; 3]; 2];
-        let mut add = |instrument: Instrument, term: &'static dyn Term, c: &[f64; MAX_COEFFICIENTS]| {
-            if let Some(input) = &self.inputs[instrument as usize] {
-                let e = term.output(input, c);
-                (0..3).for_each(|i| errors[instrument as usize][i] += e[i]);
-            }
-        };
-        let mut open: Option<(Instrument, &'static dyn Term, [f64; MAX_COEFFICIENTS])> = None;
-        for (lane, mean) in self.lanes().zip(self.means) {
-            let (instrument, term) = (lane.component.instrument(), lane.component.term());
-            match &mut open {
-                Some((i, t, c)) if *i == instrument && *t == term => c[lane.component.coefficient()] += mean,
-                _ => {
-                    if let Some((i, t, c)) = open.take() {
-                        add(i, t, &c);
+        for (c, place) in self.bank.places(&self.spec) {
+            let group = group_of(&mut self.groups, c.instrument(), c.term());
+            let target = (group * MAX_COEFFICIENTS + c.coefficient()) as u16;
+            let (list, len) = match place.shape {
+                Shape::Constant => {
+                    if let Some(group) = &mut self.groups[group] {
+                        group.base[c.coefficient()] += self.bank.means.constant[place.first];
                     }
-                    let mut c = [0.0; MAX_COEFFICIENTS];
-                    c[lane.component.coefficient()] = mean;
-                    open = Some((instrument, term, c));
+                    continue;
                 }
-            }
+                Shape::White => (&mut self.targets.white.0[..], &mut self.targets.white.1),
+                Shape::First => (&mut self.targets.first.0[..], &mut self.targets.first.1),
+                Shape::Second | Shape::Free => (&mut self.targets.second.0[..], &mut self.targets.second.1),
+            };
+            list[place.first..place.first + place.count].fill(target);
+            *len = (*len).max(place.first + place.count);
         }
-        if let Some((i, t, c)) = open {
-            add(i, t, &c);
+    }
+
+    /// Output error of each instrument.
+    fn errors(&self, inputs: &[Input; 2]) -> [[f64; 3]; 2] {
+        let mut sums = [[0.0; MAX_COEFFICIENTS]; MAX_GROUPS];
+        for (sum, group) in sums.iter_mut().zip(self.groups.iter().flatten()) {
+            *sum = group.base;
+        }
+        let flat = sums.as_flattened_mut();
+        let (t, means) = (&self.targets, &self.bank.means);
+        add_to(flat, &t.white.0[..t.white.1], &means.white);
+        add_to(flat, &t.first.0[..t.first.1], &means.first);
+        add_to(flat, &t.second.0[..t.second.1], &means.second);
+        let mut errors = [[0.0; 3]; 2];
+        for (sum, group) in sums.iter().zip(self.groups.iter().flatten()) {
+            let which = group.instrument as usize;
+            let e = group.term.output(&inputs[which], sum);
+            (0..3).for_each(|i| errors[which][i] += e[i]);
         }
         errors
     }
+}
+
+fn add_to(sums: &mut [f64], targets: &[u16], means: &[f64]) {
+    for (target, mean) in targets.iter().zip(means) {
+        sums[usize::from(*target)] += mean;
+    }
+}
+
+/// Number of the group of `term` on `instrument`, which is made where it does not exist.
+fn group_of(
+    groups: &mut [Option<Group>; MAX_GROUPS],
+    instrument: Instrument,
+    term: &'static dyn Term,
+) -> usize {
+    let found = groups.iter().position(|g| match g {
+        Some(g) => g.instrument == instrument && g.term == term,
+        None => true,
+    });
+    let i = found.expect("invariant: there is a group for every term on every instrument");
+    groups[i].get_or_insert(Group { instrument, term, base: Coefficients::default() });
+    i
 }

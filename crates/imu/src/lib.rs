@@ -21,6 +21,7 @@
 //! ```
 #![no_std]
 
+mod bank;
 mod error;
 mod imu;
 mod instrument;
@@ -34,7 +35,7 @@ mod truth;
 mod unit;
 
 pub use error::{Error, Names, Text};
-pub use imu::{Imu, MAX_LANES, State};
+pub use imu::{Imu, State};
 pub use instrument::Instrument;
 pub use process::{Evolution, PROCESSES, Process, ProcessKind, Value, process_kind};
 pub use random::Stream;

@@ -1,5 +1,9 @@
 //! Tests of the error model.
 
 mod api;
+mod examples;
+mod laws;
 mod philox;
+mod process_laws;
+mod terms;
 mod unit;

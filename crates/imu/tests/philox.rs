@@ -1,6 +1,6 @@
 //! The generator against its published known answers.
 
-use schuler_imu::random::{normals, philox4x32_10};
+use schuler_imu::random::{Level, best_level, fill_normals, philox4x32_10};
 
 /// Vectors `philox4x32 10` of the file `kat_vectors` of Random123, version 1.09.
 #[test]
@@ -19,21 +19,49 @@ fn known_answers() {
     }
 }
 
-/// The transform against the platform's logarithm, sine and cosine.
+/// The lanes against the scalar generator and the platform's logarithm, sine and cosine.
 #[test]
 fn normals_are_those_of_box_and_muller() {
-    let mut words = [7, 11, 13, 17];
-    for _ in 0..20_000 {
-        words = philox4x32_10(words, [1, 2]);
-        let n = normals(words);
-        for (pair, w) in n.chunks(2).zip(words.chunks(2)) {
-            let u = (f64::from(w[0]) + 0.5) / 2f64.powi(32);
-            let (sin, cos) = (f64::from(w[1]) / 2f64.powi(32) * core::f64::consts::TAU).sin_cos();
-            let r = (-2.0 * u.ln()).sqrt();
-            assert!((pair[0] - r * cos).abs() < 1e-10 && (pair[1] - r * sin).abs() < 1e-10, "{words:x?}");
+    let key = [0x1234_5678, 0x9abc_def0];
+    let addresses: Vec<u64> = (0..64_u64).map(|i| i.wrapping_mul(0x9e37_79b9_7f4a_7c15)).collect();
+    for block in (0..200).chain([u64::MAX / 3]) {
+        let normals = fill(best_level(), key, block, &addresses);
+        for (i, a) in addresses.iter().enumerate() {
+            let w = philox4x32_10([block as u32, (block >> 32) as u32, *a as u32, (a >> 32) as u32], key);
+            for q in 0..2 {
+                let u = (f64::from(w[2 * q]) + 0.5) / 2f64.powi(32);
+                let turn = f64::from((w[2 * q + 1] | 1).wrapping_add(1 << 31) as i32) / 2f64.powi(32);
+                let sign = if w[2 * q + 1] & 1 == 1 { -1.0 } else { 1.0 };
+                let (sin, cos) = (turn * std::f64::consts::PI).sin_cos();
+                let r = sign * (-2.0 * u.ln()).sqrt();
+                for (found, expected) in [(normals[2 * q][i], r * cos), (normals[2 * q + 1][i], r * sin)] {
+                    assert!((found - expected).abs() < 2e-12, "{found} {expected}");
+                }
+            }
         }
     }
-    for edge in [0, u32::MAX] {
-        assert!(normals([edge; 4]).iter().all(|n| n.abs() < 6.77));
+}
+
+fn fill(level: Level, key: [u32; 2], block: u64, addresses: &[u64]) -> [Vec<f64>; 4] {
+    let mut out = [(); 4].map(|()| vec![0.0; addresses.len()]);
+    fill_normals(level, key, block, addresses, out.each_mut().map(|o| &mut o[..]));
+    out
+}
+
+/// Every width of lanes gives the same bits.
+#[test]
+fn all_lanes_agree_bit_for_bit() {
+    let addresses: Vec<u64> = (0..1024_u64).map(|i| i.wrapping_mul(0xdead_beef_cafe_f00d)).collect();
+    let best = best_level();
+    let mut levels = vec![Level::baseline()];
+    #[cfg(target_arch = "x86_64")]
+    {
+        levels.extend(best.as_sse2().map(Level::Sse2));
+        levels.extend(best.as_sse4_2().map(Level::Sse4_2));
+        levels.extend(best.as_avx2().map(Level::Avx2));
+    }
+    let expected = fill(best, [3, 4], 77, &addresses);
+    for level in levels {
+        assert!(fill(level, [3, 4], 77, &addresses) == expected, "{level:?}");
     }
 }

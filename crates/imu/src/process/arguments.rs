@@ -43,7 +43,8 @@ impl Process {
     /// A process of `kind` with named parameters in SI units, validated.
     ///
     /// # Errors
-    /// The names are those of no form of the process, a number is out of its range, or lists differ in length.
+    /// The names are those of no form of the process, a number is out of its range, lists differ in length,
+    /// or the numbers contradict each other.
     pub fn new(kind: &'static dyn ProcessKind, given: &[(&str, Value<'_>)]) -> Result<Process, Error> {
         let forms = kind.forms();
         if let Some((stray, _)) =
@@ -65,7 +66,11 @@ impl Process {
                 process.assign(i, parameter.name, parameter.range, *value)?;
             }
         }
-        Ok(process)
+        let used = process.list_length().unwrap_or(1);
+        match (0..used).find_map(|j| kind.conflict(&process.evolution(j, 1.0).arguments)) {
+            Some(reason) => Err(Error::Conflict { process: kind.name(), reason }),
+            None => Ok(process),
+        }
     }
 
     fn assign(&mut self, i: usize, name: &'static str, range: Range, value: Value<'_>) -> Result<(), Error> {

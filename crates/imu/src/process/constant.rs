@@ -1,4 +1,6 @@
-use super::{Arguments, Form, LinearModel, Parameter, ParameterUnit, Polynomial, ProcessKind, Range, Step};
+use super::{
+    Arguments, Form, LinearModel, Parameter, ParameterUnit, Polynomial, ProcessKind, Range, Shape, Step,
+};
 
 /// A coefficient that keeps its value: fixed, or drawn once per run.
 pub struct Constant;
@@ -24,24 +26,26 @@ impl ProcessKind for Constant {
                 name: "value",
                 unit: ParameterUnit::Coefficient(0),
                 range: Range::Any,
+                example: 1.0,
                 doc: "the fixed value",
             }],
             &[Parameter {
                 name: "sigma",
                 unit: ParameterUnit::Coefficient(0),
                 range: Range::NonNegative,
+                example: 1.0,
                 doc: "standard deviation from run to run",
             }],
         ];
         FORMS
     }
-    fn states(&self, _: &Arguments) -> usize {
-        1
+    fn shape(&self, _: &Arguments) -> Shape {
+        Shape::Constant
     }
-    fn initial(&self, a: &Arguments, [w, _]: [f64; 2]) -> [f64; 2] {
+    fn initial(&self, a: &Arguments, _: usize, [w, _]: [f64; 2]) -> [f64; 2] {
         [if a.form == VALUE { a.values[0] } else { a.values[0] * w }, 0.0]
     }
-    fn step(&self, _: &Arguments, _: f64) -> Step {
+    fn step(&self, _: &Arguments, _: usize, _: f64) -> Step {
         Step::first_order(1.0, 1.0, [0.0; 3])
     }
     fn linear_model(&self, a: &Arguments) -> LinearModel {

@@ -45,4 +45,33 @@ impl LinearModel {
         (m.a[0][0], m.q[0][0], m.c[0], m.x0[0], m.p0[0][0]) = (a, q, 1.0, x0, p0);
         m
     }
+
+    /// Two states of which the first is the coefficient, moved by the system matrix `a`.
+    pub fn planar(a: [[f64; 2]; 2], x0: [f64; 2]) -> LinearModel {
+        let mut m = LinearModel { n: 2, ..LinearModel::NONE };
+        for i in 0..2 {
+            m.a[i][..2].copy_from_slice(&a[i]);
+        }
+        m.c[0] = 1.0;
+        m.x0[..2].copy_from_slice(&x0);
+        m
+    }
+
+    /// The sum of two independent coefficients. States beyond [`MAX_STATES`] are dropped, which
+    /// validated processes do not reach.
+    pub fn plus(mut self, o: &LinearModel) -> LinearModel {
+        let n = self.n;
+        for i in 0..o.n.min(MAX_STATES - n) {
+            for j in 0..o.n.min(MAX_STATES - n) {
+                self.a[n + i][n + j] = o.a[i][j];
+                self.q[n + i][n + j] = o.q[i][j];
+                self.p0[n + i][n + j] = o.p0[i][j];
+            }
+            self.c[n + i] = o.c[i];
+            self.x0[n + i] = o.x0[i];
+        }
+        self.n = (n + o.n).min(MAX_STATES);
+        self.white += o.white;
+        self
+    }
 }

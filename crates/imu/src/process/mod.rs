@@ -9,24 +9,39 @@ use crate::Unit;
 mod arguments;
 mod constant;
 mod evolution;
+mod flicker;
 mod gauss_markov;
 mod linear;
+mod quantization;
 mod ramp;
 mod random_walk;
+mod second_order_gauss_markov;
+mod sinusoid;
 mod step;
+mod sun_literal;
 mod white;
 
 pub use arguments::{Process, Value};
 pub use evolution::{Evolution, Polynomial};
 pub use linear::{LinearModel, MAX_STATES};
-pub use step::Step;
+pub use step::{Shape, Step};
 
 /// Every process, in the order of the documentation tables.
-pub const PROCESSES: &[&dyn ProcessKind] =
-    &[&constant::Constant, &white::White, &random_walk::RandomWalk, &gauss_markov::GaussMarkov, &ramp::Ramp];
+pub const PROCESSES: &[&dyn ProcessKind] = &[
+    &constant::Constant,
+    &white::White,
+    &random_walk::RandomWalk,
+    &gauss_markov::GaussMarkov,
+    &second_order_gauss_markov::SecondOrderGaussMarkov,
+    &flicker::Flicker,
+    &ramp::Ramp,
+    &quantization::Quantization,
+    &sinusoid::Sinusoid,
+    &sun_literal::SunLiteral,
+];
 
 /// Most parameters that a process may have.
-pub const MAX_PARAMETERS: usize = 3;
+pub const MAX_PARAMETERS: usize = 5;
 
 /// Parameters of one coefficient: which form was given, and its numbers in the order of the form.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +52,14 @@ pub struct Arguments {
     pub values: [f64; MAX_PARAMETERS],
 }
 
+impl Arguments {
+    /// First form, all numbers zero.
+    const EMPTY: Arguments = Arguments { form: 0, values: [0.0; MAX_PARAMETERS] };
+}
+
 /// A stochastic or deterministic process in time, zero-mean where it is random.
+///
+/// The numbers of an [`Arguments`] that reaches these functions have been validated.
 pub trait ProcessKind: Sync {
     /// Name in files and column headers, `gauss_markov`.
     fn name(&self) -> &'static str;
@@ -54,14 +76,24 @@ pub trait ProcessKind: Sync {
     /// The ways to parametrise it, of which one is chosen by the names given.
     fn forms(&self) -> &'static [Form];
 
-    /// Number of states that the step needs, 0, 1 or 2.
-    fn states(&self, a: &Arguments) -> usize;
+    /// Why these numbers, each in its range, do not go together, if they do not.
+    fn conflict(&self, _: &Arguments) -> Option<&'static str> {
+        None
+    }
 
-    /// State at t = 0 from two independent standard normals (unused where nothing is random).
-    fn initial(&self, a: &Arguments, normals: [f64; 2]) -> [f64; 2];
+    /// Number of independent parts whose sum it is.
+    fn parts(&self, _: &Arguments) -> usize {
+        1
+    }
 
-    /// Exact joint discretisation of state and interval mean over a step of `dt` seconds.
-    fn step(&self, a: &Arguments, dt: f64) -> Step;
+    /// What one step of a part needs.
+    fn shape(&self, a: &Arguments) -> Shape;
+
+    /// State of part `part` at t = 0 from two independent standard normals (unused where nothing is random).
+    fn initial(&self, a: &Arguments, part: usize, normals: [f64; 2]) -> [f64; 2];
+
+    /// Exact joint discretisation of state and interval mean of part `part` over a step of `dt` seconds.
+    fn step(&self, a: &Arguments, part: usize, dt: f64) -> Step;
 
     /// The same process as a continuous linear model.
     fn linear_model(&self, a: &Arguments) -> LinearModel;
@@ -91,6 +123,8 @@ pub struct Parameter {
     pub unit: ParameterUnit,
     /// The values that make sense.
     pub range: Range,
+    /// A number that makes sense, in SI units and for a coefficient of the size of one.
+    pub example: f64,
     /// One line.
     pub doc: &'static str,
 }

@@ -1,4 +1,6 @@
-use super::{Arguments, Form, LinearModel, Parameter, ParameterUnit, Polynomial, ProcessKind, Range, Step};
+use super::{
+    Arguments, Form, LinearModel, Parameter, ParameterUnit, Polynomial, ProcessKind, Range, Shape, Step,
+};
 
 /// A coefficient that grows linearly from zero at t = 0.
 pub struct Ramp;
@@ -24,30 +26,31 @@ impl ProcessKind for Ramp {
                 name: "rate",
                 unit: ParameterUnit::Coefficient(-2),
                 range: Range::Any,
+                example: 0.5,
                 doc: "the fixed rate R",
             }],
             &[Parameter {
                 name: "sigma",
                 unit: ParameterUnit::Coefficient(-2),
                 range: Range::NonNegative,
+                example: 0.5,
                 doc: "standard deviation of the rate from run to run",
             }],
         ];
         FORMS
     }
-    fn states(&self, _: &Arguments) -> usize {
-        2
+    fn shape(&self, _: &Arguments) -> Shape {
+        Shape::Free
     }
-    fn initial(&self, a: &Arguments, [w, _]: [f64; 2]) -> [f64; 2] {
+    fn initial(&self, a: &Arguments, _: usize, [w, _]: [f64; 2]) -> [f64; 2] {
         [0.0, if a.form == VALUE { a.values[0] } else { a.values[0] * w }]
     }
-    fn step(&self, _: &Arguments, dt: f64) -> Step {
+    fn step(&self, _: &Arguments, _: usize, dt: f64) -> Step {
         Step { phi: [[1.0, dt], [0.0, 1.0]], mean: [1.0, 0.5 * dt], noise: [[0.0; 3]; 3] }
     }
     fn linear_model(&self, a: &Arguments) -> LinearModel {
         let r = a.values[0];
-        let mut m = LinearModel { n: 2, ..LinearModel::NONE };
-        (m.a[0][1], m.c[0]) = (1.0, 1.0);
+        let mut m = LinearModel::planar([[0.0, 1.0], [0.0, 0.0]], [0.0; 2]);
         if a.form == VALUE {
             m.x0[1] = r;
         } else {

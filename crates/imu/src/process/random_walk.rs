@@ -2,7 +2,7 @@ use core::f64::consts::TAU;
 
 use libm::sqrt;
 
-use super::{Arguments, Form, LinearModel, Parameter, ParameterUnit, ProcessKind, Range, Step};
+use super::{Arguments, Form, LinearModel, Parameter, ParameterUnit, ProcessKind, Range, Shape, Step};
 
 /// Integrated white noise, zero at t = 0.
 pub struct RandomWalk;
@@ -25,18 +25,19 @@ impl ProcessKind for RandomWalk {
             name: "density",
             unit: ParameterUnit::Coefficient(-1),
             range: Range::NonNegative,
+            example: 1.0,
             doc: "root of the spectral density of its derivative, K",
         }]];
         FORMS
     }
-    fn states(&self, _: &Arguments) -> usize {
-        1
+    fn shape(&self, _: &Arguments) -> Shape {
+        Shape::First
     }
-    fn initial(&self, _: &Arguments, _: [f64; 2]) -> [f64; 2] {
+    fn initial(&self, _: &Arguments, _: usize, _: [f64; 2]) -> [f64; 2] {
         [0.0; 2]
     }
     /// Increment and interval mean have covariance K² [dt, dt/2; dt/2, dt/3].
-    fn step(&self, a: &Arguments, dt: f64) -> Step {
+    fn step(&self, a: &Arguments, _: usize, dt: f64) -> Step {
         let k = a.values[0] * sqrt(dt);
         Step::first_order(1.0, 1.0, [k, 0.5 * k, k / sqrt(12.0)])
     }

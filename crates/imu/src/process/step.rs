@@ -28,3 +28,18 @@ impl Step {
         }
     }
 }
+
+/// What one step of a process needs: decides how an injector keeps it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// Nothing: the coefficient keeps the first state of [`ProcessKind::initial`](super::ProcessKind::initial).
+    Constant,
+    /// No state and w3.
+    White,
+    /// The first state, w1 and w3.
+    First,
+    /// Two states and three normals.
+    Second,
+    /// Two states that move freely, without noise.
+    Free,
+}

@@ -1,6 +1,6 @@
 use libm::sqrt;
 
-use super::{Arguments, Form, LinearModel, Parameter, ParameterUnit, ProcessKind, Range, Step};
+use super::{Arguments, Form, LinearModel, Parameter, ParameterUnit, ProcessKind, Range, Shape, Step};
 
 /// White noise: angle random walk of gyroscopes, velocity random walk of accelerometers.
 pub struct White;
@@ -23,17 +23,18 @@ impl ProcessKind for White {
             name: "density",
             unit: ParameterUnit::Coefficient(1),
             range: Range::NonNegative,
+            example: 1.0,
             doc: "root of the two-sided spectral density, N",
         }]];
         FORMS
     }
-    fn states(&self, _: &Arguments) -> usize {
-        0
+    fn shape(&self, _: &Arguments) -> Shape {
+        Shape::White
     }
-    fn initial(&self, _: &Arguments, _: [f64; 2]) -> [f64; 2] {
+    fn initial(&self, _: &Arguments, _: usize, _: [f64; 2]) -> [f64; 2] {
         [0.0; 2]
     }
-    fn step(&self, a: &Arguments, dt: f64) -> Step {
+    fn step(&self, a: &Arguments, _: usize, dt: f64) -> Step {
         Step::first_order(0.0, 0.0, [0.0, 0.0, a.values[0] / sqrt(dt)])
     }
     fn linear_model(&self, a: &Arguments) -> LinearModel {

@@ -1,10 +1,11 @@
 //! Random numbers as pure functions of their address.
 
-mod normal;
+mod lanes;
 mod philox;
 mod stream;
 
-pub use normal::normals;
+pub use fearless_simd::Level;
+pub use lanes::{best_level, fill_normals};
 pub use philox::philox4x32_10;
 pub use stream::Stream;
 pub(crate) use stream::{Address, Key};

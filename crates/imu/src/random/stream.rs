@@ -1,6 +1,6 @@
 use core::fmt::{self, Write};
 
-use super::{normals, philox4x32_10};
+use super::{Level, fill_normals, philox4x32_10};
 
 /// Which run of which experiment: with the scenario, this determines every random number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -13,7 +13,7 @@ pub struct Stream {
 
 /// Philox key of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Key([u32; 2]);
+pub(crate) struct Key(pub [u32; 2]);
 
 impl Stream {
     /// A key for the run, itself drawn with the seed as key, so that all 64 bits of seed and run count.
@@ -25,30 +25,35 @@ impl Stream {
 }
 
 impl Key {
-    /// The standard normal of `address` at `step`: a pure function of seed, run, address and step.
-    #[inline]
-    pub(crate) fn normal(self, address: Address, step: u64) -> f64 {
-        let block = step >> 2;
-        let words = philox4x32_10([low(block), high(block), low(address.0), high(address.0)], self.0);
-        normals(words)[(step & 3) as usize]
+    /// The first two standard normals of `address`, for what is drawn once per run.
+    pub(crate) fn start(self, level: Level, address: Address) -> [f64; 2] {
+        let (mut n0, mut n1, mut n2, mut n3) = ([0.0; 8], [0.0; 8], [0.0; 8], [0.0; 8]);
+        fill_normals(level, self.0, 0, &[address.0; 8], [&mut n0, &mut n1, &mut n2, &mut n3]);
+        [n0[0], n1[0]]
     }
 }
 
 /// Where in the specification a draw belongs: a hash of the component's name and of the use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Address(u64);
+pub(crate) struct Address(pub u64);
 
 impl Address {
     /// Of draw number `draw` of part `part` of the component called `name`.
     pub(crate) fn new(name: &dyn fmt::Display, part: usize, draw: usize) -> Address {
-        let mut hash = Fnv(0xcbf2_9ce4_8422_2325);
+        let mut hash = Fnv::new();
         write!(hash, "{name}/{part}/{draw}").expect("invariant: hashing accepts every text");
         Address(hash.0)
     }
 }
 
 /// FNV-1a, 64 bits.
-struct Fnv(u64);
+pub(crate) struct Fnv(pub u64);
+
+impl Fnv {
+    pub(crate) const fn new() -> Fnv {
+        Fnv(0xcbf2_9ce4_8422_2325)
+    }
+}
 
 impl Write for Fnv {
     fn write_str(&mut self, s: &str) -> fmt::Result {

@@ -6,20 +6,68 @@ use core::fmt;
 
 use crate::{Input, Instrument, Unit};
 
+mod anisoelastic;
+mod anisoinertia;
+mod asymmetry;
 mod bias;
+mod cross_coupling;
+mod cubic;
+mod g_sensitivity;
+mod g_squared;
+mod lever_arm;
 mod misalignment;
+mod mounting;
+mod non_orthogonality;
 mod quadratic;
 mod scale_factor;
+mod size_effect;
+mod thermal;
+mod thermal_2;
+mod thermal_3;
+mod thermal_rate;
+mod thermal_scale_factor;
+mod vibration_rectification;
+mod vibropendulous;
+
+pub use mounting::mounting_coefficients;
 
 /// Every term, in the order of the documentation tables.
-pub const TERMS: &[&dyn Term] =
-    &[&bias::Bias, &scale_factor::ScaleFactor, &quadratic::Quadratic, &misalignment::Misalignment];
+pub const TERMS: &[&dyn Term] = &[
+    &bias::Bias,
+    &scale_factor::ScaleFactor,
+    &asymmetry::Asymmetry,
+    &quadratic::Quadratic,
+    &cubic::Cubic,
+    &misalignment::Misalignment,
+    &non_orthogonality::NonOrthogonality,
+    &mounting::Mounting,
+    &thermal::Thermal,
+    &thermal_2::Thermal2,
+    &thermal_3::Thermal3,
+    &thermal_rate::ThermalRate,
+    &thermal_scale_factor::ThermalScaleFactor,
+    &g_sensitivity::GSensitivity,
+    &g_squared::GSquared,
+    &anisoelastic::Anisoelastic,
+    &anisoinertia::Anisoinertia,
+    &cross_coupling::CrossCoupling,
+    &vibropendulous::Vibropendulous,
+    &size_effect::SizeEffect,
+    &lever_arm::LeverArm,
+    &vibration_rectification::VibrationRectification,
+];
 
 /// Most coefficients that a term may have.
 pub const MAX_COEFFICIENTS: usize = 9;
 
 /// Labels of a term with one coefficient per axis.
-pub(crate) const AXES: &[&str] = &["x", "y", "z"];
+const AXES: &[&str] = &["x", "y", "z"];
+
+/// Labels of a 3 × 3 matrix of coefficients, row (output) by row.
+const MATRIX: &[&str] = &["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"];
+
+/// Labels of a matrix that takes the products of two axes to the three outputs.
+const PRODUCTS: &[&str] = &["x_yz", "x_zx", "x_xy", "y_yz", "y_zx", "y_xy", "z_yz", "z_zx", "z_xy"];
 
 /// The coefficients of a term, the first [`Term::len`] in use and the others zero.
 pub type Coefficients = [f64; MAX_COEFFICIENTS];
@@ -108,6 +156,27 @@ impl PartialEq for dyn Term {
 }
 
 /// Product per axis.
-pub(crate) fn by_axis(c: &Coefficients, x: [f64; 3]) -> [f64; 3] {
+fn by_axis(c: &Coefficients, x: [f64; 3]) -> [f64; 3] {
     [c[0] * x[0], c[1] * x[1], c[2] * x[2]]
+}
+
+/// Product of the 3 × 3 matrix `c`, row by row, with `x`.
+fn by_matrix(c: &Coefficients, x: [f64; 3]) -> [f64; 3] {
+    let row = |i: usize| c[i] * x[0] + c[i + 1] * x[1] + c[i + 2] * x[2];
+    [row(0), row(3), row(6)]
+}
+
+/// Products yz, zx, xy of the components of `v`.
+fn products([x, y, z]: [f64; 3]) -> [f64; 3] {
+    [y * z, z * x, x * y]
+}
+
+/// The matrix [ω×][ω×] + [ω̇×] that takes a lever arm to the acceleration of its end, 1/s².
+fn lever_gradient(input: &Input) -> [[f64; 3]; 3] {
+    let ([x, y, z], [ax, ay, az]) = (input.omega, input.omega_dot);
+    [
+        [-y * y - z * z, x * y - az, x * z + ay],
+        [x * y + az, -x * x - z * z, y * z - ax],
+        [x * z - ay, y * z + ax, -x * x - y * y],
+    ]
 }

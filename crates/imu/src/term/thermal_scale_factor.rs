@@ -1,0 +1,27 @@
+use super::{Coefficients, Term, by_axis};
+use crate::{Input, Instrument, Unit};
+
+/// Scale factor that changes with T - T_cal.
+pub struct ThermalScaleFactor;
+
+impl Term for ThermalScaleFactor {
+    fn name(&self) -> &'static str {
+        "thermal_scale_factor"
+    }
+    fn doc(&self) -> &'static str {
+        "Scale factor that changes with T - T_cal"
+    }
+    fn formula(&self) -> &'static str {
+        "e_i = c_i (T - T_cal) u_i"
+    }
+    fn source(&self) -> &'static str {
+        "IEEE Std 528, scale factor temperature sensitivity"
+    }
+    fn unit(&self, _: Instrument) -> Unit {
+        Unit::ONE.over(Unit::KELVIN)
+    }
+    #[inline]
+    fn output(&self, x: &Input, c: &Coefficients) -> [f64; 3] {
+        by_axis(c, x.u.map(|u| u * x.delta_t))
+    }
+}
