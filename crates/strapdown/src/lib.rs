@@ -1,6 +1,12 @@
 //! Strapdown mechanization, linear error dynamics and closed forms.
 #![no_std]
 
+/// Attitude at the start, from the sensors themselves.
+pub mod align {
+    mod triad;
+
+    pub use triad::{TriadError, triad};
+}
 mod anchor;
 mod error_dynamics;
 mod increments;

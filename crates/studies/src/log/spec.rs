@@ -1,0 +1,82 @@
+//! What a scenario says about a log, valid and in SI.
+
+use std::fmt;
+
+use super::AxisMap;
+
+/// A recorded log and how to read it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LogSpec {
+    /// File name, as written: looked up by [`super::find`].
+    pub file: String,
+    /// Where the data come from, for whoever does not have the file; may be empty.
+    pub source: String,
+    /// Samples a second, Hz, positive. Every sample covers an interval of 1/rate.
+    pub rate: f64,
+    /// What a row holds.
+    pub content: Content,
+    /// Where in a row it stands.
+    pub columns: Columns,
+    /// What one count is.
+    pub scale: Scale,
+    /// From sensor axes to body axes.
+    pub axes: AxisMap,
+    /// The instrument stood still for the whole log: drift can be told from the known point.
+    pub stationary: bool,
+}
+
+/// What a row holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Content {
+    /// Angle and velocity increments over the interval that ends at the row's time.
+    Increments,
+    /// Mean angular rate and mean specific force over that interval.
+    Rates,
+}
+
+/// Where the numbers of a row stand.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Columns {
+    /// Time of the row, where the log has it: it is checked for order and gaps.
+    pub time: Option<TimeColumn>,
+    /// Gyros along sensor x, y, z.
+    pub gyro: [ColumnRef; 3],
+    /// Accelerometers along sensor x, y, z.
+    pub accel: [ColumnRef; 3],
+}
+
+/// A time column and its unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TimeColumn {
+    /// Where it stands.
+    pub column: ColumnRef,
+    /// Seconds per count, positive.
+    pub scale: f64,
+}
+
+/// A column by its name in the header, or by its number.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ColumnRef {
+    /// Name in the header, white space around it left out.
+    Name(String),
+    /// Number from 1. A log whose columns all go by number needs no header.
+    Number(usize),
+}
+
+impl fmt::Display for ColumnRef {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ColumnRef::Name(name) => f.write_str(name),
+            ColumnRef::Number(number) => write!(f, "column {number}"),
+        }
+    }
+}
+
+/// What one count of a column is, sensor x, y, z.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scale {
+    /// rad (increments) or rad/s (rates).
+    pub gyro: [f64; 3],
+    /// m/s (increments) or m/s² (rates).
+    pub accel: [f64; 3],
+}
