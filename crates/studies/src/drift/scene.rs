@@ -1,6 +1,6 @@
 //! The stationary truth of a drift study and everything that is computed from it once.
 
-use schuler_frames::{B, Euler, Gravity, Rot, T, Vec3, earth::omega_ie_t};
+use schuler_frames::{B, Gravity, Rot, T, Vec3, earth::omega_ie_t};
 use schuler_imu::{Input, Instrument, Truth};
 use schuler_strapdown::static_base::Site;
 use schuler_strapdown::{BaroLoop, Pva, Vertical};
@@ -30,8 +30,7 @@ pub struct Scene {
 impl Scene {
     pub fn new(drift: &Drift, every: Option<f64>) -> Scene {
         let position = drift.start.position;
-        let [roll, pitch, yaw] = drift.start.attitude;
-        let c_tb: Rot<T, B> = Rot::from_euler(Euler { roll, pitch, yaw });
+        let c_tb: Rot<T, B> = Rot::from_euler(drift.start.attitude);
         let gravity = drift.mechanization.gravity;
         let (s, c) = position.lat.sin_cos();
         let g_t = gravity.gravity_t(position);
@@ -47,7 +46,7 @@ impl Scene {
             }
         };
         let dt = 1.0 / drift.imu.rate;
-        let steps = (drift.duration * drift.imu.rate).round().max(1.0) as u64;
+        let steps = drift.samples;
         let stride = every.map_or(1, |every| (every / dt).round().max(1.0) as u64);
         let mut rows: Vec<u64> = (0..=steps / stride).map(|k| k * stride).collect();
         if !steps.is_multiple_of(stride) {

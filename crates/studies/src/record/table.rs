@@ -152,6 +152,8 @@ impl Table {
 
 /// The columns that studies write, as the README states them.
 pub mod columns {
+    use schuler_imu::Unit;
+
     /// `errors.csv`: position, velocity and attitude error, computed minus true, local north-east-down.
     pub const ERRORS: [&str; 12] = [
         "t_s",
@@ -188,4 +190,17 @@ pub mod columns {
         ["t_s", "omega_x_radps", "omega_y_radps", "omega_z_radps", "f_x_mps2", "f_y_mps2", "f_z_mps2"];
     /// `way` of `errors.csv`.
     pub const WAYS: [&str; 5] = ["nonlinear", "half_difference", "linear", "exact", "single_axis"];
+
+    /// The unit that the last part of a column's name states.
+    pub fn unit(name: &str) -> Option<Unit> {
+        match name.rsplit_once('_')?.1 {
+            "s" => Some(Unit::SECOND),
+            "m" => Some(Unit::METRE),
+            "mps" => Some(Unit::METRE.over(Unit::SECOND)),
+            "mps2" => Some(Unit::FORCE),
+            "rad" => Some(Unit::RADIAN),
+            "radps" => Some(Unit::RATE),
+            _ => None,
+        }
+    }
 }

@@ -1,8 +1,26 @@
-//! The scenario as valid: SI and radians, every invariant holds. The only way in is [`Scenario::load`].
+//! The scenario as written and as valid.
+//!
+//! Text becomes a [`Document`] (places), overrides change it, serde reads the written form (keys and words),
+//! and checking it gives the valid form: SI, radians, every invariant. The only way in is [`Scenario::load`].
 
+mod check;
+mod de;
+mod document;
+mod example;
+mod expect;
+mod load;
+mod overrides;
+mod quantity;
+mod schema;
+mod sources;
+mod start;
+#[cfg(test)]
+mod tests;
 mod valid;
+mod written;
 
+pub use schema::json_schema;
 pub use valid::{
-    Align, Damping, Drift, Expect, Formats, Frame, Imu, ImuStudy, Initial, Mechanization, Motion, Navigate,
-    Output, RateTable, Scenario, Start, Statistic, Study, Vertical,
+    Align, Channel, Content, Damping, Drift, Expect, Formats, Frame, Imu, ImuStudy, Initial, Log,
+    Mechanization, Motion, Navigate, Output, RateTable, Scenario, Start, Statistic, Study, Vertical,
 };

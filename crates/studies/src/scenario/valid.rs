@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use hifitime::Epoch;
-use schuler_frames::{Geodetic, Gravity};
+use schuler_frames::{Euler, Geodetic, Gravity};
+use schuler_imu::Spec;
 
 /// A scenario that can be run.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,10 +74,10 @@ impl Vertical {
 pub struct ImuStudy {
     /// What the instrument goes through.
     pub motion: Motion,
-    /// Place and attitude, where the motion needs them.
-    pub start: Start,
-    /// Duration, s, positive.
-    pub duration: f64,
+    /// Place and attitude; every motion but zero truth has them.
+    pub start: Option<Start>,
+    /// Number of samples, positive.
+    pub samples: u64,
     /// The instrument.
     pub imu: Imu,
 }
@@ -84,13 +85,13 @@ pub struct ImuStudy {
 /// `study: drift`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drift {
-    /// Where, when and how it stands.
+    /// Where, when and how it stands; its velocity is zero.
     pub start: Start,
-    /// Duration, s, positive.
-    pub duration: f64,
+    /// Number of samples, positive: the duration is `samples / imu.rate`.
+    pub samples: u64,
     /// The instrument.
     pub imu: Imu,
-    /// Errors of the computed state at the start.
+    /// Errors of the computed state at the start, one for each component that is not zero.
     pub initial_errors: Vec<Initial>,
     /// How it navigates.
     pub mechanization: Mechanization,
@@ -99,6 +100,8 @@ pub struct Drift {
 /// `study: navigate`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Navigate {
+    /// The recorded log.
+    pub log: Log,
     /// Where and when the log begins; its attitude is found by `align`.
     pub start: Start,
     /// Levelling and heading from the log itself.
@@ -109,15 +112,52 @@ pub struct Navigate {
     pub duration: Option<f64>,
 }
 
+/// A recorded IMU log, CSV or CSV.gz.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Log {
+    /// File as written: looked up in the data folder, then beside the scenario.
+    pub file: PathBuf,
+    /// Sample rate, Hz, positive.
+    pub rate: f64,
+    /// What a row holds.
+    pub content: Content,
+    /// Column of time in seconds, where the log has one.
+    pub time: Option<String>,
+    /// Gyro channels along sensor x, y, z; SI per count is rad or rad/s.
+    pub gyro: [Channel; 3],
+    /// Accelerometer channels along sensor x, y, z; SI per count is m/s or m/s².
+    pub accel: [Channel; 3],
+    /// Sensor axis (0, 1, 2) and sign that point along body x, y, z: a proper rotation.
+    pub axes: [(usize, f64); 3],
+}
+
+/// A column of a log.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Channel {
+    /// Name of the column.
+    pub column: String,
+    /// What one count is, SI.
+    pub scale: f64,
+}
+
+/// What a row of IMU data holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Content {
+    /// Integrals over the interval that ends at the row's time.
+    Increments,
+    /// Rates: means over the interval that ends at the row's time.
+    Rates,
+}
+
 /// Place, time, attitude and velocity at t = 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Start {
-    /// Epoch of t = 0, any time scale.
-    pub epoch: Epoch,
+    /// Epoch of t = 0, any time scale, if one was given.
+    pub epoch: Option<Epoch>,
     /// WGS 84 geodetic position.
     pub position: Geodetic,
-    /// Roll, pitch, yaw, rad (yaw-pitch-roll sequence, yaw clockwise from north).
-    pub attitude: [f64; 3],
+    /// Attitude C_b^t.
+    pub attitude: Euler,
     /// North, east, down velocity, m/s.
     pub velocity: [f64; 3],
 }
@@ -150,11 +190,10 @@ pub struct Imu {
     /// Sample rate, Hz, positive.
     pub rate: f64,
     /// Its error sources.
-    pub spec: schuler_imu::Spec,
+    pub spec: Spec,
 }
 
-/// One initial error of the computed state, one component: for each axis that is not zero, in the order of
-/// the file.
+/// One component of the initial error of the computed state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Initial {
     /// Name of the source, `initial.tilt.n`.
@@ -220,6 +259,8 @@ pub struct Output {
     pub every: Option<f64>,
     /// Kinds of files.
     pub formats: Formats,
+    /// Form of `imu.csv`.
+    pub imu: Content,
 }
 
 /// Kinds of files.
@@ -231,6 +272,16 @@ pub struct Formats {
     pub png: bool,
     /// Figures as SVG.
     pub svg: bool,
+}
+
+impl Content {
+    /// The word for it in a scenario.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Content::Increments => "increments",
+            Content::Rates => "rates",
+        }
+    }
 }
 
 /// One expected number.

@@ -1,0 +1,302 @@
+//! From the written to the valid form.
+
+use schuler_frames::Gravity;
+use schuler_imu::Unit;
+
+use super::{
+    de::At,
+    document::{Document, NodeId, Spot},
+    quantity::Range,
+    sources,
+    valid::{
+        Align, Channel, Content, Damping, Drift, Formats, Frame, Imu, ImuStudy, Log, Mechanization, Motion,
+        Navigate, Output, RateTable, Scenario, Start, Study, Vertical,
+    },
+    written::{self, StudyKind},
+};
+use crate::Diagnostic;
+
+/// More rows than this in memory help nobody (a day at 1 kHz).
+const MAX_SAMPLES: f64 = 1e8;
+
+impl Document {
+    pub(super) fn scenario(&self, w: &written::Scenario) -> Result<Scenario, Diagnostic> {
+        if w.schuler.value != 1 {
+            return Err(self
+                .diagnostic(Spot::Node(w.schuler.node), format!("unknown format version {}", w.schuler.value))
+                .expected("1")
+                .example("schuler: 1"));
+        }
+        self.only_used_keys(w)?;
+        let study = match w.study.value {
+            StudyKind::Imu => Study::Imu(self.imu_study(w)?),
+            StudyKind::Drift => Study::Drift(self.drift(w)?),
+            StudyKind::Navigate => Study::Navigate(self.navigate(w)?),
+        };
+        let rate = match &study {
+            Study::Imu(s) => s.imu.rate,
+            Study::Drift(s) => s.imu.rate,
+            Study::Navigate(s) => s.log.rate,
+        };
+        let output = self.output(w.output.as_ref(), rate)?;
+        let expect = w.expect.iter().map(|e| self.expect(e, w.study.value)).collect::<Result<_, _>>()?;
+        let seed = w.seed.as_ref().map_or(1, |s| s.value);
+        let file = self.file().into();
+        // The debug form of the valid scenario is canonical: SI, defaults filled in, shortest digits that
+        // read back. What only names or shows things is left out.
+        let canonical = format!("{study:?} {:?} {:?} {seed}", output.every, output.imu);
+        let hash = blake3::hash(canonical.as_bytes()).to_hex().to_string();
+        Ok(Scenario { file, title: w.title.clone(), study, output, expect, seed, hash })
+    }
+
+    /// Keys that the study does not use are a mistake somewhere.
+    fn only_used_keys(&self, w: &written::Scenario) -> Result<(), Diagnostic> {
+        fn node<T>(key: &Option<At<T>>) -> Option<NodeId> {
+            key.as_ref().map(|k| k.node)
+        }
+        use StudyKind::{Drift, Imu, Navigate};
+        let keys: [(Option<NodeId>, &[StudyKind]); 6] = [
+            (node(&w.motion), &[Imu, Drift]),
+            (node(&w.imu), &[Imu, Drift]),
+            (node(&w.initial_errors), &[Drift]),
+            (node(&w.mechanization), &[Drift, Navigate]),
+            (node(&w.log), &[Navigate]),
+            (node(&w.align), &[Navigate]),
+        ];
+        for (node, studies) in keys {
+            if let Some(node) = node.filter(|_| !studies.contains(&w.study.value)) {
+                let study = format!("{:?}", w.study.value).to_lowercase();
+                return Err(self
+                    .diagnostic(Spot::Node(node), format!("the study `{study}` does not use this key"))
+                    .help("take it out, or choose another study"));
+            }
+        }
+        Ok(())
+    }
+
+    fn required<'w, T>(
+        &self,
+        key: &'w Option<T>,
+        name: &str,
+        study: &str,
+        example: &str,
+    ) -> Result<&'w T, Diagnostic> {
+        key.as_ref().ok_or_else(|| {
+            self.diagnostic(Spot::Node(self.root()), format!("the key `{name}` is missing"))
+                .expected(format!("`{name}` in a scenario of `study: {study}`"))
+                .example(example)
+        })
+    }
+
+    fn imu_study(&self, w: &written::Scenario) -> Result<ImuStudy, Diagnostic> {
+        let motion = self.required(&w.motion, "motion", "imu", "motion: zero_truth")?;
+        let needs_start = !matches!(motion.value, written::Motion::ZeroTruth);
+        let start = match &w.start {
+            None if needs_start => Some(self.required_start(w, "imu")?),
+            start => start.as_ref().map(|s| self.start(s)).transpose()?,
+        };
+        let motion = match &motion.value {
+            written::Motion::ZeroTruth => Motion::ZeroTruth,
+            written::Motion::Static => Motion::Static,
+            written::Motion::RateTable(table) => Motion::RateTable(RateTable {
+                rate: self.quantity(&table.rate, Unit::RATE, Range::Positive)?,
+                tilt: self.quantity(&table.tilt, Unit::RADIAN, Range::Any)?,
+            }),
+        };
+        let imu = self.imu(self.required(&w.imu, "imu", "imu", "imu: { rate: 100 Hz }")?)?;
+        Ok(ImuStudy { motion, start, samples: self.samples(w, "imu", imu.rate)?, imu })
+    }
+
+    fn drift(&self, w: &written::Scenario) -> Result<Drift, Diagnostic> {
+        let motion = self.required(&w.motion, "motion", "drift", "motion: static")?;
+        if !matches!(motion.value, written::Motion::Static) {
+            return Err(self
+                .diagnostic(Spot::Node(motion.node), "the drift study stands still")
+                .expected("`static`")
+                .example("motion: static"));
+        }
+        let start = self.required_start(w, "drift")?;
+        if start.velocity != [0.0; 3] {
+            let velocity = w.start.as_ref().and_then(|s| s.value.velocity.as_ref());
+            let node = velocity.map_or(self.root(), |v| v.node);
+            return Err(self
+                .diagnostic(Spot::Node(node), "a velocity on a static base")
+                .expected("zero velocity")
+                .help("an error of the computed velocity belongs to `initial_errors: { velocity: […] }`"));
+        }
+        let imu = self.imu(self.required(&w.imu, "imu", "drift", "imu: { rate: 100 Hz }")?)?;
+        Ok(Drift {
+            start,
+            samples: self.samples(w, "drift", imu.rate)?,
+            imu,
+            initial_errors: self.initial_errors(w.initial_errors.as_ref())?,
+            mechanization: self.mechanization(w, "drift")?,
+        })
+    }
+
+    fn navigate(&self, w: &written::Scenario) -> Result<Navigate, Diagnostic> {
+        let log = self.required(&w.log, "log", "navigate", "log: { file: imu.csv, rate: 100 Hz, … }")?;
+        let align =
+            self.required(&w.align, "align", "navigate", "align: { method: triad, window: [0 s, 300 s] }")?;
+        let written::Method::Triad = align.value.method.value;
+        let window = self.quantities(&align.value.window, Unit::SECOND)?;
+        if !(0.0 <= window[0] && window[0] < window[1]) {
+            return Err(self
+                .diagnostic(
+                    Spot::Node(align.value.window.node),
+                    "the window is empty or begins before the log",
+                )
+                .expected("begin and end in seconds from the first sample")
+                .example("[0 s, 300 s]"));
+        }
+        let duration =
+            w.duration.as_ref().map(|d| self.quantity(d, Unit::SECOND, Range::Positive)).transpose()?;
+        Ok(Navigate {
+            log: self.log(&log.value)?,
+            start: self.required_start(w, "navigate")?,
+            align: Align { window },
+            mechanization: self.mechanization(w, "navigate")?,
+            duration,
+        })
+    }
+
+    fn required_start(&self, w: &written::Scenario, study: &str) -> Result<Start, Diagnostic> {
+        let example = "start: { position: { lat: 45 deg, lon: 0 deg, h: 0 m } }";
+        self.start(self.required(&w.start, "start", study, example)?)
+    }
+
+    fn imu(&self, imu: &At<written::Imu>) -> Result<Imu, Diagnostic> {
+        let rate = self.quantity(&imu.value.rate, Unit::HERTZ, Range::Positive)?;
+        Ok(Imu { rate, spec: sources::spec(self, &imu.value.gyro, &imu.value.accel)? })
+    }
+
+    /// A whole number of samples.
+    fn samples(&self, w: &written::Scenario, study: &str, rate: f64) -> Result<u64, Diagnostic> {
+        let duration = self.required(&w.duration, "duration", study, "duration: 24 h")?;
+        let samples = self.quantity(duration, Unit::SECOND, Range::Positive)? * rate;
+        let whole = samples.round();
+        let problem = if whole < 1.0 || (samples - whole).abs() > 1e-9 * samples.max(1e3) {
+            "the duration is not a whole number of samples"
+        } else if whole > MAX_SAMPLES {
+            "the duration has more than 100 million samples"
+        } else {
+            return Ok(whole as u64);
+        };
+        let found = format!("{samples} samples at {rate} Hz");
+        Err(self.diagnostic(Spot::Node(duration.node), problem).found(found).example("duration: 24 h"))
+    }
+
+    fn mechanization(&self, w: &written::Scenario, study: &str) -> Result<Mechanization, Diagnostic> {
+        let example = "mechanization: { frame: t, vertical: held, gravity: somigliana }";
+        let w = &self.required(&w.mechanization, "mechanization", study, example)?.value;
+        let written::Frame::T = w.frame.value;
+        let vertical = match &w.vertical.value {
+            written::Vertical::Held => Vertical::Held,
+            written::Vertical::Free => Vertical::Free,
+            written::Vertical::Damped(damping) => Vertical::Damped(Damping {
+                order: match damping.order.value {
+                    order @ (2 | 3) => order as u8,
+                    other => {
+                        return Err(self
+                            .diagnostic(Spot::Node(damping.order.node), "no such order of the vertical loop")
+                            .expected("2 or 3")
+                            .found(other.to_string())
+                            .example("vertical: { damped: { order: 3, tau: 100 s } }"));
+                    }
+                },
+                tau: self.quantity(&damping.tau, Unit::SECOND, Range::Positive)?,
+            }),
+        };
+        let gravity = match w.gravity.value {
+            written::Gravity::Normal => Gravity::Normal,
+            written::Gravity::Somigliana => Gravity::Somigliana,
+        };
+        Ok(Mechanization { frame: Frame::T, vertical, gravity })
+    }
+
+    fn log(&self, w: &written::Log) -> Result<Log, Diagnostic> {
+        let content = content(w.content);
+        let per = match content {
+            Content::Increments => Unit::SECOND,
+            Content::Rates => Unit::ONE,
+        };
+        let channels = |columns: &[String; 3], scale: &At<written::OneOrThree>, unit: Unit| {
+            let scale = self.each_axis(scale, unit * per)?;
+            Ok([0, 1, 2].map(|i| Channel { column: columns[i].clone(), scale: scale[i] }))
+        };
+        Ok(Log {
+            file: w.file.value.clone().into(),
+            rate: self.quantity(&w.rate, Unit::HERTZ, Range::Positive)?,
+            content,
+            time: w.columns.time.clone(),
+            gyro: channels(&w.columns.gyro, &w.scale.gyro, Unit::RATE)?,
+            accel: channels(&w.columns.accel, &w.scale.accel, Unit::FORCE)?,
+            axes: w.axes.as_ref().map_or(Ok([(0, 1.0), (1, 1.0), (2, 1.0)]), |axes| self.axes(axes))?,
+        })
+    }
+
+    /// `[y, x, -z]`: a right-handed map of sensor axes to body axes.
+    fn axes(&self, axes: &At<[At<String>; 3]>) -> Result<[(usize, f64); 3], Diagnostic> {
+        let mut map = [(0, 0.0); 3];
+        for (slot, word) in map.iter_mut().zip(&axes.value) {
+            let (sign, name) = match word.value.strip_prefix('-') {
+                Some(name) => (-1.0, name),
+                None => (1.0, word.value.as_str()),
+            };
+            let axis = ["x", "y", "z"].iter().position(|a| *a == name).ok_or_else(|| {
+                self.diagnostic(Spot::Node(word.node), format!("unknown axis `{}`", word.value))
+                    .expected("`x`, `y`, `z`, `-x`, `-y` or `-z`")
+                    .example("axes: [y, x, -z]")
+            })?;
+            *slot = (axis, sign);
+        }
+        let [(a, s), (b, t), (c, u)] = map;
+        // The sign of the permutation; 0 when an axis stands twice.
+        let parity = (b as f64 - a as f64) * (c as f64 - b as f64) * (c as f64 - a as f64) / 2.0;
+        if parity * s * t * u == 1.0 {
+            return Ok(map);
+        }
+        let problem = if parity == 0.0 { "an axis stands twice" } else { "the map is left-handed" };
+        Err(self
+            .diagnostic(Spot::Node(axes.node), problem)
+            .expected("each sensor axis once, forming a right-handed triad forward, right, down")
+            .example("[y, x, -z] for a sensor with x right, y forward, z up"))
+    }
+
+    fn output(&self, output: Option<&At<written::Output>>, rate: f64) -> Result<Output, Diagnostic> {
+        let Some(w) = output.map(|o| &o.value) else {
+            let formats = Formats { csv: true, png: true, svg: false };
+            return Ok(Output { every: None, formats, imu: Content::Rates });
+        };
+        let every = w.every.as_ref().map(|every| self.every(every, rate)).transpose()?;
+        let formats = w.formats.as_ref().map_or(Formats { csv: true, png: true, svg: false }, |formats| {
+            let has = |wanted: fn(written::Format) -> bool| formats.value.iter().any(|f| wanted(f.value));
+            Formats {
+                csv: has(|f| matches!(f, written::Format::Csv)),
+                png: has(|f| matches!(f, written::Format::Png)),
+                svg: has(|f| matches!(f, written::Format::Svg)),
+            }
+        });
+        Ok(Output { every, formats, imu: w.imu.map_or(Content::Rates, content) })
+    }
+
+    /// An interval of whole samples.
+    fn every(&self, every: &written::Quantity, rate: f64) -> Result<f64, Diagnostic> {
+        let seconds = self.quantity(every, Unit::SECOND, Range::Positive)?;
+        let samples = seconds * rate;
+        if samples.round() < 1.0 || (samples - samples.round()).abs() > 1e-6 {
+            return Err(self
+                .diagnostic(Spot::Node(every.node), "the interval is not a whole number of samples")
+                .found(format!("{samples} samples at {rate} Hz"))
+                .example("every: 60 s"));
+        }
+        Ok(seconds)
+    }
+}
+
+fn content(content: written::Content) -> Content {
+    match content {
+        written::Content::Increments => Content::Increments,
+        written::Content::Rates => Content::Rates,
+    }
+}

@@ -1,0 +1,199 @@
+use hifitime::Epoch;
+use schuler_frames::Gravity;
+
+use super::{Scenario, Statistic, Study, Vertical, json_schema};
+use crate::Error;
+
+const DRIFT: &str = "\
+schuler: 1
+study: drift
+title: A test
+start:
+  epoch: 2026-01-01T00:00:00 UTC
+  position: { lat: 45 deg, lon: 0 deg, h: 0 m }
+motion: static
+duration: 24 h
+imu:
+  rate: 100 Hz
+  gyro:
+    - bias: { constant: { value: [0.01 deg/h, 0 deg/h, 0 deg/h] } }
+    - bias: { white: { density: 0.003 deg/sqrt(h) } }
+  accel:
+    - bias: { gauss_markov: { sigma: 50 ug, tau: 1 h } }
+mechanization: { frame: t, vertical: held, gravity: somigliana }
+output: { every: 60 s, formats: [csv] }
+expect:
+  - { quantity: dn_m, source: all, way: exact, at: 24 h, value: 1 km, tolerance: 1 % }
+seed: 7
+";
+
+/// Changes of the scenario above, each of which makes it wrong.
+const FAULTS: &[(&str, &str)] = &[
+    ("seed: 7", "sede: 7"),
+    ("motion: static", "motion: statik"),
+    ("motion: static", "motion: rate_table"),
+    ("motion: static", "motion: { static: 3 }"),
+    ("motion: static\n", ""),
+    ("duration: 24 h", "duration: 24"),
+    ("duration: 24 h", "duration: '24'"),
+    ("duration: 24 h", "duration: 0 h"),
+    ("duration: 24 h", "duration: 24 hh"),
+    ("duration: 24 h", "duration: 24 m"),
+    ("duration: 24 h", "duration: [24 h]"),
+    ("duration: 24 h", "duration:"),
+    ("lat: 45 deg", "lat: 95 deg"),
+    ("lat: 45 deg", "lta: 45 deg"),
+    ("lat: 45 deg, ", ""),
+    ("density: 0.003", "density: -0.003"),
+    ("deg/sqrt(h)", "deg/h"),
+    ("0 deg/h, 0 deg/h]", "0 deg/h]"),
+    ("white:", "pink:"),
+    ("- bias: { white", "- bais: { white"),
+    ("sigma: 50 ug, tau: 1 h", "sigma: 50 ug"),
+    ("tau: 1 h", "Tau: 1 h"),
+    ("100 Hz", "0 Hz"),
+    ("held", "{ damped: { order: 4, tau: 100 s } }"),
+    ("2026-01-01T00", "2026-13-01T00"),
+    ("dn_m", "dx_m"),
+    ("at: 24 h", "at: noon"),
+    ("tolerance: 1 %", "tolerance: 1 deg"),
+    ("every: 60 s", "every: 0.015 s"),
+    ("mechanization", "log: { }\nmechanization"),
+    ("mechanization", "initial_errors: { tilt: [1 deg] }\nmechanization"),
+    ("gravity: somigliana", "gravity: egm2008"),
+    ("schuler: 1", "schuler: 2"),
+    ("title: A test", "title: A test\nduratoin: 1 h"),
+    ("h: 0 m", "h: 200000 km"),
+    ("motion: static", "motion: zero_truth"),
+    ("h: 0 m }", "h: 0 m }\n  velocity: { n: 1 m/s, e: 0 m/s, d: 0 m/s }"),
+    ("seed: 7", "seed: -7"),
+    ("seed: 7", "seed: 7\nseed: 8"),
+    ("seed: 7", "seed: [7"),
+    ("title: A test", "title: [A, test]"),
+    (
+        "title: A test",
+        "title: &a [x,x,x,x,x,x,x,x,x,x]\nb: &b [*a,*a,*a,*a,*a,*a,*a,*a,*a,*a]\nc: &c [*b,*b,*b,*b,*b,*b,*b,*b,*b,*b]\nd: &d [*c,*c,*c,*c,*c,*c,*c,*c,*c,*c]\ne: &e [*d,*d,*d,*d,*d,*d,*d,*d,*d,*d]",
+    ),
+];
+
+const SETTINGS: &[&str] = &[
+    "imu.rate=0 Hz",
+    "imu.gyro[1].bias.white.density=3",
+    "imu.gyro[9].bias=3",
+    "imu.rat=3 Hz",
+    "seed",
+    "seed=[1",
+];
+
+fn load(text: &str, overrides: &[&str]) -> Result<Scenario, Error> {
+    let overrides: Vec<String> = overrides.iter().map(|s| String::from(*s)).collect();
+    Scenario::load("a.yaml", text, &overrides)
+}
+
+/// `messages.txt` holds what people read for each fault; it is reviewed as prose, not derived.
+#[test]
+fn messages() {
+    let mut found = String::new();
+    for (from, to) in FAULTS {
+        let text = DRIFT.replace(from, to);
+        assert_ne!(text, DRIFT, "{from} is not in the scenario");
+        let error = load(&text, &[]).expect_err(to);
+        found += &format!("== {from:?} -> {to:?}\n{error}\n");
+    }
+    for setting in SETTINGS {
+        let error = load(DRIFT, &[setting]).expect_err(setting);
+        found += &format!("== --set {setting}\n{error}\n");
+    }
+    // A new term or process is no change of a message.
+    let terms: Vec<&str> = schuler_imu::TERMS
+        .iter()
+        .filter(|t| t.instruments().contains(&schuler_imu::Instrument::Gyro))
+        .map(|t| t.name())
+        .collect();
+    let processes: Vec<&str> = schuler_imu::PROCESSES.iter().map(|p| p.name()).collect();
+    for (words, name) in [(terms, "<terms of the instrument>"), (processes, "<processes>")] {
+        found = found.replace(&super::de::one_of(&words), &format!("one of {name}"));
+    }
+    let expected = include_str!("messages.txt");
+    for (found, expected) in found.split("== ").zip(expected.split("== ")) {
+        assert_eq!(found, expected);
+    }
+    assert_eq!(found.len(), expected.len());
+}
+
+#[test]
+fn a_scenario_in_si() {
+    let scenario = load(DRIFT, &[]).expect("valid");
+    let Study::Drift(drift) = &scenario.study else { panic!("a drift study") };
+    assert_eq!(scenario.seed, 7);
+    assert_eq!(drift.samples, 8_640_000);
+    assert_eq!(drift.start.position.lat, 45f64.to_radians());
+    assert_eq!(drift.start.epoch, Some(Epoch::from_gregorian_utc_at_midnight(2026, 1, 1)));
+    assert_eq!(drift.mechanization.gravity, Gravity::Somigliana);
+    assert_eq!(drift.mechanization.vertical, Vertical::Held);
+    assert_eq!(scenario.output.every, Some(60.0));
+    let expect = &scenario.expect[0];
+    assert_eq!((expect.at, expect.value, expect.tolerance), (Statistic::Time(86_400.0), 1000.0, 10.0));
+    let names: Vec<String> = drift.imu.spec.components().map(|c| c.to_string()).collect();
+    assert_eq!(names[0], "gyro.bias.constant.x");
+    assert_eq!(names.len(), 9);
+}
+
+#[test]
+fn settings_change_the_document() {
+    let of = |settings: &[&str]| load(DRIFT, settings).unwrap_or_else(|e| panic!("{settings:?}: {e}"));
+    assert_eq!(of(&["seed=8"]).seed, 8);
+    // A setting of what is written already, in another unit, is the same scenario.
+    assert_eq!(of(&["duration=1 d"]), of(&[]));
+    let Study::Drift(drift) = of(&["imu.gyro=[]", "imu.rate=1 kHz", "initial_errors.heading=1 arcmin"]).study
+    else {
+        panic!("a drift study")
+    };
+    assert_eq!((drift.imu.spec.components().count(), drift.samples), (3, 86_400_000));
+    assert_eq!(drift.initial_errors[0].name, "initial.heading.d");
+    assert_eq!(drift.initial_errors[0].phi[2], (1.0f64 / 60.0).to_radians());
+}
+
+#[test]
+fn the_hash_knows_numbers_and_nothing_else() {
+    let hash = |text: &str| load(text, &[]).expect("valid").hash;
+    let same = DRIFT.replace("24 h", "1440 min").replace("A test", "Another").replace("seed: 7\n", "")
+        + "seed: 7 # last\n";
+    assert_eq!(hash(DRIFT), hash(&same));
+    assert_ne!(hash(DRIFT), hash(&DRIFT.replace("0.003", "0.0030001")));
+    assert_ne!(hash(DRIFT), hash(&DRIFT.replace("seed: 7", "seed: 8")));
+}
+
+/// The semi-axes of WGS 84 as Earth-fixed positions: points of the equator and of the pole at height 0.
+#[test]
+fn earth_fixed_positions() {
+    let at = |x: &str, z: &str| {
+        let position = format!("position: {{ x: {x}, y: 0 m, z: {z} }}");
+        let scenario = load(&DRIFT.replace("position: { lat: 45 deg, lon: 0 deg, h: 0 m }", &position), &[]);
+        let Study::Drift(drift) = scenario.expect("valid").study else { panic!("a drift study") };
+        drift.start.position
+    };
+    let equator = at("6378137 m", "0 m");
+    assert!(equator.lat.abs() < 1e-15 && equator.h.abs() < 1e-8);
+    let pole = at("0 m", "6356752.314245 m");
+    assert!((pole.lat.to_degrees() - 90.0).abs() < 1e-12 && pole.h.abs() < 1e-6);
+}
+
+/// Every key of the schema has a working example for messages.
+#[test]
+fn every_key_has_an_example() {
+    let schema: serde_json::Value = serde_json::from_str(&json_schema()).expect("JSON");
+    let example = include_str!("example.yaml");
+    let mut keys: Vec<&String> = Vec::new();
+    let root = schema["properties"].as_object().expect("keys");
+    keys.extend(root.keys());
+    for (name, definition) in schema["$defs"].as_object().expect("definitions") {
+        // Words of enumerations are listed by the message itself; sources have examples of their own.
+        if !matches!(name.as_str(), "Sources" | "RateTable" | "Damping") {
+            keys.extend(definition["properties"].as_object().into_iter().flat_map(|p| p.keys()));
+        }
+    }
+    for key in keys {
+        assert!(example.contains(&format!("{key}:")), "example.yaml has no `{key}`");
+    }
+}

@@ -1,0 +1,330 @@
+//! The scenario as written: keys and words are right, quantities are text. Doc comments go into the schema.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::{
+    de::At,
+    schema::{Scalar, Sources},
+};
+
+/// A quantity with its unit, `0.01 deg/h`; a number alone where it has no dimension.
+pub type Quantity = At<Scalar>;
+
+/// A scenario of Schuler: what is simulated or read, how it navigates, what is written.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scenario {
+    /// Version of the format: 1.
+    pub schuler: At<u64>,
+    /// Which study.
+    pub study: At<StudyKind>,
+    /// Title of tables and figures.
+    pub title: String,
+    /// Place, time, attitude and velocity at t = 0.
+    pub start: Option<At<Start>>,
+    /// What the instrument goes through.
+    pub motion: Option<At<Motion>>,
+    /// Duration, `24 h`.
+    pub duration: Option<Quantity>,
+    /// The instrument and its errors.
+    pub imu: Option<At<Imu>>,
+    /// Errors of the computed state at t = 0, computed minus true.
+    pub initial_errors: Option<At<InitialErrors>>,
+    /// How it navigates.
+    pub mechanization: Option<At<Mechanization>>,
+    /// The recorded log.
+    pub log: Option<At<Log>>,
+    /// How the initial attitude is found from the log.
+    pub align: Option<At<Align>>,
+    /// What is written, and how often.
+    pub output: Option<At<Output>>,
+    /// What the result is expected to be; checked by `run`.
+    #[serde(default)]
+    pub expect: Vec<At<Expect>>,
+    /// Master seed of every random draw; 1 when absent.
+    pub seed: Option<At<u64>>,
+}
+
+/// The kinds of study.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq)]
+#[serde(rename_all = "snake_case")]
+pub enum StudyKind {
+    /// Sensor errors only.
+    Imu,
+    /// Each error source alone and all together, at rest, beside closed forms.
+    Drift,
+    /// A recorded log.
+    Navigate,
+}
+
+/// Place, time, attitude and velocity at t = 0.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Start {
+    /// Date and time with time scale, `2026-01-01T00:00:00 UTC`.
+    pub epoch: Option<At<String>>,
+    /// Geodetic `{ lat, lon, h }` or Earth-fixed `{ x, y, z }`.
+    pub position: At<Position>,
+    /// Level and to the north when absent.
+    pub attitude: Option<At<Attitude>>,
+    /// At rest when absent.
+    pub velocity: Option<At<Velocity>>,
+}
+
+/// WGS 84 position, geodetic (`lat`, `lon`, `h`) or Earth-fixed (`x`, `y`, `z`).
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Position {
+    /// Geodetic latitude, north positive.
+    pub lat: Option<Quantity>,
+    /// Longitude, east positive.
+    pub lon: Option<Quantity>,
+    /// Height above the ellipsoid.
+    pub h: Option<Quantity>,
+    /// Earth-fixed x, towards latitude 0, longitude 0.
+    pub x: Option<Quantity>,
+    /// Earth-fixed y.
+    pub y: Option<Quantity>,
+    /// Earth-fixed z, towards the north pole.
+    pub z: Option<Quantity>,
+}
+
+/// Euler angles of the yaw-pitch-roll sequence, local level north-east-down to forward-right-down.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Attitude {
+    /// About the forward axis, right side down positive.
+    pub roll: Quantity,
+    /// Nose up positive, within ±90 deg.
+    pub pitch: Quantity,
+    /// Clockwise from north.
+    pub yaw: Quantity,
+}
+
+/// Velocity over ground.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Velocity {
+    /// North.
+    pub n: Quantity,
+    /// East.
+    pub e: Quantity,
+    /// Down.
+    pub d: Quantity,
+}
+
+/// What the instrument goes through.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Motion {
+    /// Zero angular velocity and zero specific force (no place on the Earth has that).
+    ZeroTruth,
+    /// At rest on the Earth.
+    Static,
+    /// On a tilted rate table that turns each axis both ways.
+    RateTable(RateTable),
+}
+
+/// The duration is cut in six: about x forward and back, about y forward and back, about z forward and back.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RateTable {
+    /// Rate of the table, `30 deg/s`.
+    pub rate: Quantity,
+    /// Tilt of its axis from the vertical, towards north.
+    pub tilt: Quantity,
+}
+
+/// Three gyros and three accelerometers along x, y, z of the body.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Imu {
+    /// Samples a second, `100 Hz`.
+    pub rate: Quantity,
+    /// Error sources of the gyros.
+    #[serde(default)]
+    pub gyro: Sources,
+    /// Error sources of the accelerometers.
+    #[serde(default)]
+    pub accel: Sources,
+}
+
+/// Errors of the computed state at t = 0, computed minus true.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct InitialErrors {
+    /// Tilt about north and about east.
+    pub tilt: Option<At<[Quantity; 2]>>,
+    /// Rotation about down.
+    pub heading: Option<Quantity>,
+    /// North, east, down.
+    pub velocity: Option<At<[Quantity; 3]>>,
+    /// North, east, down, in metres.
+    pub position: Option<At<[Quantity; 3]>>,
+}
+
+/// How it navigates.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Mechanization {
+    /// Frame of the computation: `t`, local level north-east-down.
+    pub frame: At<Frame>,
+    /// The vertical channel: `held`, `free`, or `{ damped: { order: 3, tau: 100 s } }`.
+    pub vertical: At<Vertical>,
+    /// Gravity model.
+    pub gravity: At<Gravity>,
+}
+
+/// Frame of the computation.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Frame {
+    /// Local level, north-east-down.
+    T,
+}
+
+/// The vertical channel.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Vertical {
+    /// Height and vertical velocity keep their initial values.
+    Held,
+    /// Unaided: errors grow by e every 570 s.
+    Free,
+    /// Slaved to the reference height.
+    Damped(Damping),
+}
+
+/// The loop that slaves the vertical channel to the reference height.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Damping {
+    /// 2 or 3.
+    pub order: At<u64>,
+    /// Time constant, `100 s`.
+    pub tau: Quantity,
+}
+
+/// Gravity model.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Gravity {
+    /// The exact field of the level ellipsoid.
+    Normal,
+    /// Somigliana's formula, straight down, second order in height.
+    Somigliana,
+}
+
+/// A recorded IMU log, CSV or CSV.gz.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Log {
+    /// File; looked up in the data folder (`--data`, `SCHULER_DATA`), then beside the scenario.
+    pub file: At<String>,
+    /// Samples a second.
+    pub rate: Quantity,
+    /// What a row holds: `increments` (integrals over the interval that ends at the row's time) or `rates`.
+    pub content: Content,
+    /// Names of the columns.
+    pub columns: Columns,
+    /// What one count of a column is: `{ gyro: 0.1 arcsec, accel: 1 mm/s }`; one for the instrument or three.
+    pub scale: Scales,
+    /// Sensor axis that points along body x (forward), y (right) and z (down): `[y, x, -z]`; `[x, y, z]` when absent.
+    pub axes: Option<At<[At<String>; 3]>>,
+}
+
+/// What a row of a log holds.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Content {
+    /// Angle and velocity increments over the interval that ends at the row's time.
+    Increments,
+    /// Angular rate and specific force.
+    Rates,
+}
+
+/// Names of the columns of a log.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Columns {
+    /// Time in seconds, where the log has it; it is checked for gaps and order.
+    pub time: Option<String>,
+    /// Gyro x, y, z.
+    pub gyro: [String; 3],
+    /// Accelerometer x, y, z.
+    pub accel: [String; 3],
+}
+
+/// What one count of a column is.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scales {
+    /// Angle (increments) or angular rate (rates) of one count.
+    pub gyro: At<OneOrThree>,
+    /// Velocity (increments) or specific force (rates) of one count.
+    pub accel: At<OneOrThree>,
+}
+
+/// One quantity for all axes, or a list of three.
+pub type OneOrThree = super::schema::OneOrMore;
+
+/// How the initial attitude is found from the log.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Align {
+    /// The method.
+    pub method: At<Method>,
+    /// Begin and end of the window from the first sample, `[0 s, 300 s]`.
+    pub window: At<[Quantity; 2]>,
+}
+
+/// Alignment methods.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Method {
+    /// Averages of specific force (trusted first) and angular rate.
+    Triad,
+}
+
+/// What is written, and how often.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Output {
+    /// Interval of the rows, `60 s`; every sample when absent.
+    pub every: Option<Quantity>,
+    /// `csv`, `png`, `svg`; `[csv, png]` when absent.
+    pub formats: Option<At<Vec<At<Format>>>>,
+    /// Form of `imu.csv`; `rates` when absent.
+    pub imu: Option<Content>,
+}
+
+/// Kinds of files.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Format {
+    /// Tables.
+    Csv,
+    /// Figures as pictures.
+    Png,
+    /// Figures as drawings.
+    Svg,
+}
+
+/// One expected number.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Expect {
+    /// A column of the output, `dn_m`.
+    pub quantity: At<String>,
+    /// Which rows, by their `source`.
+    pub source: Option<String>,
+    /// Which rows, by their `way`.
+    pub way: Option<At<String>>,
+    /// A time, or `final`, `largest` (magnitude), `rms`, `mean`, `sd`.
+    pub at: At<String>,
+    /// Expected value.
+    pub value: Quantity,
+    /// Tolerance in the unit of the value, or relative: `0.1 %`.
+    pub tolerance: Quantity,
+}
