@@ -51,7 +51,8 @@ impl Linear {
         Linear::balanced(f, b, scene)
     }
 
-    /// The single-axis equations of the textbooks: no Foucault coupling, no turn of the tilts with the Earth.
+    /// The single-axis equations of the textbooks: no Foucault coupling, no turn of the tilts with the Earth
+    /// and, as their laws for noise are stated, no way from heading into the channels.
     pub fn single_axis(scene: &Scene) -> Linear {
         let site = &scene.site;
         let mut f: SMatrix<f64, N, N> = SMatrix::zeros();
@@ -60,7 +61,6 @@ impl Linear {
         }
         (f[(3, 7)], f[(4, 6)]) = (site.g, -site.g);
         (f[(7, 3)], f[(6, 4)]) = (-1.0 / site.r_m, 1.0 / site.r_n);
-        f[(7, 8)] = site.omega_ie * site.cos_lat;
         let complete = Linear::complete(scene);
         let mut b = complete.b;
         for (row, scale) in complete.scale.iter().enumerate() {

@@ -284,3 +284,38 @@ fn noise_growth_meets_the_table() {
     assert!(compared == 13 * 7 * 7, "{compared} numbers compared");
     assert!(unknown.is_empty(), "cases not compared: {unknown:?}");
 }
+
+/// The single-axis standard deviations are those of the formulas of theory.md 1.7 (white noise and random walk
+/// through one Schuler loop), each axis with its own radius.
+#[test]
+fn single_axis_noise_meets_its_formulas() {
+    use Instrument::{Accel, Gyro};
+    let (n, v, k) = (0.001 * PI / 180.0 / 60.0, 10.0 * UG, 0.001 * DEG_PER_HOUR / 60.0);
+    for (instrument, process, density) in [(Gyro, "white", n), (Accel, "white", v), (Gyro, "random_walk", k)]
+    {
+        let source = source(instrument, "bias", process, &[("density", density.into())]);
+        let drift = drift(45.0, 1.0, 86_400.0, Spec::from_sources([source]).unwrap(), Vec::new());
+        let scene = Scene::new(&drift, Some(600.0));
+        let sigmas = Linear::single_axis(&scene).sigmas(&scene, &cases(&drift).swap_remove(0));
+        for (step, s) in scene.rows.iter().zip(&sigmas).skip(1) {
+            let t = scene.time(*step);
+            for (axis, r) in [(0, scene.site.r_m), (1, scene.site.r_n)] {
+                let w = (scene.site.g / r).sqrt();
+                let (sin, sin2, cos) = ((w * t).sin(), (2.0 * w * t).sin(), (w * t).cos());
+                let formula = match (instrument, process) {
+                    (Gyro, "white") => n * r * (1.5 * t - 2.0 * sin / w + sin2 / (4.0 * w)).sqrt(),
+                    (Accel, _) => v / w * (t / 2.0 - sin2 / (4.0 * w)).sqrt(),
+                    _ => {
+                        let cross = 2.0 * (w * t * cos - sin) / w.powi(3);
+                        k * r * (t.powi(3) / 3.0 + cross + (t / 2.0 - sin2 / (4.0 * w)) / (w * w)).sqrt()
+                    }
+                };
+                assert!(
+                    (s.dr[axis] / formula - 1.0).abs() < 1e-8,
+                    "{process} t {t}: {} {formula}",
+                    s.dr[axis]
+                );
+            }
+        }
+    }
+}
