@@ -3,7 +3,7 @@
 use schuler_strapdown::NavError;
 
 use super::scene::Scene;
-use super::{Curves, Way};
+use super::{Curves, Way, summary};
 use crate::figure::{Axis, Colour, Figure, Panel, Quantity, Series, Style};
 
 /// One picture per quantity with all sources, and one picture of each source beside its closed form.
@@ -74,8 +74,10 @@ fn overview(
 
 /// North and east position and the attitude of one source, all its ways.
 fn beside(conditions: &str, scene: &Scene, c: &Curves) -> Figure {
-    let mut figure = Figure::new(c.case.name.clone(), Axis::time("time")).subtitle(conditions);
     let nonlinear = c.of(Way::Nonlinear).unwrap_or_default();
+    let remark = if summary::is_silent(nonlinear) { "; does nothing here, rounding only" } else { "" };
+    let mut figure =
+        Figure::new(c.case.name.clone(), Axis::time("time")).subtitle(format!("{conditions}{remark}"));
     let panels: [(&str, Quantity, usize); 5] = [
         ("north", Quantity::Length, 0),
         ("east", Quantity::Length, 1),

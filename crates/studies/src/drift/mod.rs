@@ -76,7 +76,7 @@ pub fn run(scenario: &Scenario, context: &Context) -> Result<Record, Error> {
         cases.into_par_iter().map(|case| curves(&scene, drift, case, scenario.seed, context)).collect();
     let curves = curves?;
 
-    let mut record = Record::new(scenario, summary::table(&scene, &curves));
+    let mut record = Record::new(scenario, summary::table(&curves));
     record.tables.push(errors(&scene, &curves));
     record.notes = summary::notes(&scene, &curves);
     if scenario.output.formats.png || scenario.output.formats.svg {

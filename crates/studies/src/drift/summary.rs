@@ -30,7 +30,7 @@ pub const COLUMNS: [&str; 12] = [
 ];
 
 /// One row for each case.
-pub fn table(scene: &Scene, curves: &[Curves]) -> Table {
+pub fn table(curves: &[Curves]) -> Table {
     let mut table = Table::new("summary", &COLUMNS, &["source"]);
     for c in curves {
         let nonlinear = c.of(Way::Nonlinear).unwrap_or_default();
@@ -65,7 +65,6 @@ pub fn table(scene: &Scene, curves: &[Curves]) -> Table {
             sigmas.into(),
         ]);
     }
-    let _ = scene;
     table
 }
 
@@ -84,6 +83,12 @@ pub fn notes(scene: &Scene, curves: &[Curves]) -> Vec<String> {
         }
         notes.push(format!(
             "All together differ from the sum of each alone by at most {worst:.3} m in position: what is left is of second order in the errors."
+        ));
+    }
+    let silent = alone.iter().filter(|c| is_silent(c.of(Way::Nonlinear).unwrap_or_default())).count();
+    if silent > 0 {
+        notes.push(format!(
+            "{silent} sources do nothing at this attitude with this vertical channel: what their runs show is the rounding of the mechanization."
         ));
     }
     if curves.iter().any(|c| c.random) {
@@ -105,6 +110,11 @@ fn size(e: &NavError, kind: usize) -> f64 {
 
 fn largest(rows: &[NavError], kind: usize) -> f64 {
     rows.iter().map(|e| size(e, kind)).fold(0.0, f64::max)
+}
+
+/// Whether a run stays within rounding: its source does nothing here.
+pub fn is_silent(rows: &[NavError]) -> bool {
+    (0..3).all(|kind| largest(rows, kind) < ROUNDING[kind])
 }
 
 /// Largest difference of two ways over the largest value of the second, the worst of position, velocity and
