@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use schuler_frames::{Geodetic, Gravity};
+use schuler_frames::{Euler, Geodetic, Gravity};
 use schuler_imu::{Instrument, Source, Spec, Value};
 
 use super::case::cases;
@@ -19,12 +19,12 @@ const UG: f64 = 9.80665e-6;
 fn drift(lat_deg: f64, rate: f64, duration: f64, spec: Spec, initial_errors: Vec<Initial>) -> Drift {
     Drift {
         start: Start {
-            epoch: hifitime::Epoch::from_gregorian_utc_at_midnight(2026, 1, 1),
+            epoch: None,
             position: Geodetic::new(lat_deg.to_radians(), 0.0, 0.0),
-            attitude: [0.0; 3],
+            attitude: Euler { roll: 0.0, pitch: 0.0, yaw: 0.0 },
             velocity: [0.0; 3],
         },
-        duration,
+        samples: (duration * rate) as u64,
         imu: Imu { rate, spec },
         initial_errors,
         mechanization: Mechanization {
@@ -88,13 +88,13 @@ fn column(curves: &[Curves], name: &str) -> Vec<(String, f64)> {
 }
 
 /// Half-difference against linear 1e-6 and linear against closed form 1e-9, for every source over 24 h at
-/// three latitudes. (theory: the half-difference keeps a third-order residue of 1e-6 for 0.01 deg/h over a day
+/// two latitudes (the shipped study is the third). (theory: the half-difference keeps a third-order residue of 1e-6 for 0.01 deg/h over a day
 /// and more for all together, so the sizes here are a tenth of the tables'.)
 #[test]
 fn ways_agree_for_every_known_source() {
-    for lat in [0.0, 45.0, -75.0] {
+    for lat in [0.0, -75.0] {
         let (spec, initial) = deterministic(0.1);
-        let (_, curves) = run(&drift(lat, 4.0, 86_400.0, spec, initial), 600.0);
+        let (_, curves) = run(&drift(lat, 10.0, 86_400.0, spec, initial), 600.0);
         for (name, x) in column(&curves, "linear_exact") {
             assert!(x.is_nan() || x < 1e-9, "lat {lat} {name}: linear against exact {x:e}");
         }
@@ -116,7 +116,7 @@ fn second_order_residue_falls_by_a_hundred() {
     let residues = [1.0, 0.1].map(|size| {
         let (spec, _) = deterministic(size);
         let spec = spec.keep(|c| c.term().name() == "bias" && c.label() != "z");
-        let (_, curves) = run(&drift(45.0, 10.0, 86_400.0, spec, Vec::new()), 600.0);
+        let (_, curves) = run(&drift(45.0, 20.0, 86_400.0, spec, Vec::new()), 600.0);
         let worst = |c: &Curves| {
             let (a, b) = (c.of(Way::Nonlinear).unwrap(), c.of(Way::HalfDifference).unwrap());
             // The even part alone: third order would spoil the factor.
