@@ -5,6 +5,7 @@ pub mod drift;
 mod error;
 pub mod figure;
 pub mod log;
+pub mod navigate;
 mod progress;
 pub mod record;
 mod run;
