@@ -6,6 +6,7 @@ mod error;
 pub mod figure;
 pub mod imu_study;
 pub mod log;
+pub mod navigate;
 mod progress;
 pub mod record;
 mod run;

@@ -25,13 +25,23 @@ pub struct LogSpec {
     pub stationary: bool,
 }
 
-/// What a row holds.
+/// What a row of IMU data holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Content {
     /// Angle and velocity increments over the interval that ends at the row's time.
     Increments,
     /// Mean angular rate and mean specific force over that interval.
     Rates,
+}
+
+impl Content {
+    /// The word for it in a scenario.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Content::Increments => "increments",
+            Content::Rates => "rates",
+        }
+    }
 }
 
 /// Where the numbers of a row stand.

@@ -191,12 +191,28 @@ pub mod columns {
     /// `imu_errors.csv`: measured minus true, means over the interval that ends at `t_s`.
     pub const IMU_ERRORS: [&str; 7] =
         ["t_s", "domega_x_radps", "domega_y_radps", "domega_z_radps", "df_x_mps2", "df_y_mps2", "df_z_mps2"];
+    /// `log.csv`: what a recorded log says by itself, for the whole of it (`source` is `log`) and for its alignment
+    /// window (`window`): end, number of samples, norms of mean rate and mean specific force, and their components.
+    pub const LOG: [&str; 11] = [
+        "t_s",
+        "source",
+        "samples_count",
+        "omega_radps",
+        "f_mps2",
+        "omega_x_radps",
+        "omega_y_radps",
+        "omega_z_radps",
+        "f_x_mps2",
+        "f_y_mps2",
+        "f_z_mps2",
+    ];
     /// `way` of `errors.csv`.
     pub const WAYS: [&str; 5] = ["nonlinear", "half_difference", "linear", "exact", "single_axis"];
 
     /// The unit that the last part of a column's name states.
     pub fn unit(name: &str) -> Option<Unit> {
         match name.rsplit_once('_')?.1 {
+            "count" => Some(Unit::ONE),
             "s" => Some(Unit::SECOND),
             "m" => Some(Unit::METRE),
             "mps" => Some(Unit::METRE.over(Unit::SECOND)),

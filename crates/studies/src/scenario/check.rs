@@ -7,14 +7,15 @@ use super::{
     de::At,
     document::{Document, NodeId, Spot},
     quantity::Range,
+    recorded::content,
     sources,
     valid::{
-        Align, Channel, Content, Damping, Drift, Formats, Frame, Imu, ImuStudy, Log, Mechanization, Motion,
-        Navigate, Output, RateTable, Scenario, Start, Study, Vertical,
+        Align, Damping, Drift, Formats, Frame, Imu, ImuStudy, Mechanization, Motion, Navigate, Output,
+        RateTable, Scenario, Start, Study, Vertical,
     },
     written::{self, StudyKind},
 };
-use crate::Diagnostic;
+use crate::{Diagnostic, log::Content};
 
 /// More rows than this in memory help nobody (a day at 1 kHz).
 const MAX_SAMPLES: f64 = 1e8;
@@ -214,55 +215,6 @@ impl Document {
         Ok(Mechanization { frame: Frame::T, vertical, gravity })
     }
 
-    fn log(&self, w: &written::Log) -> Result<Log, Diagnostic> {
-        let content = content(w.content);
-        let per = match content {
-            Content::Increments => Unit::SECOND,
-            Content::Rates => Unit::ONE,
-        };
-        let channels = |columns: &[String; 3], scale: &At<written::OneOrThree>, unit: Unit| {
-            let scale = self.each_axis(scale, unit * per)?;
-            Ok([0, 1, 2].map(|i| Channel { column: columns[i].clone(), scale: scale[i] }))
-        };
-        Ok(Log {
-            file: w.file.value.clone().into(),
-            rate: self.quantity(&w.rate, Unit::HERTZ, Range::Positive)?,
-            content,
-            time: w.columns.time.clone(),
-            gyro: channels(&w.columns.gyro, &w.scale.gyro, Unit::RATE)?,
-            accel: channels(&w.columns.accel, &w.scale.accel, Unit::FORCE)?,
-            axes: w.axes.as_ref().map_or(Ok([(0, 1.0), (1, 1.0), (2, 1.0)]), |axes| self.axes(axes))?,
-        })
-    }
-
-    /// `[y, x, -z]`: a right-handed map of sensor axes to body axes.
-    fn axes(&self, axes: &At<[At<String>; 3]>) -> Result<[(usize, f64); 3], Diagnostic> {
-        let mut map = [(0, 0.0); 3];
-        for (slot, word) in map.iter_mut().zip(&axes.value) {
-            let (sign, name) = match word.value.strip_prefix('-') {
-                Some(name) => (-1.0, name),
-                None => (1.0, word.value.as_str()),
-            };
-            let axis = ["x", "y", "z"].iter().position(|a| *a == name).ok_or_else(|| {
-                self.diagnostic(Spot::Node(word.node), format!("unknown axis `{}`", word.value))
-                    .expected("`x`, `y`, `z`, `-x`, `-y` or `-z`")
-                    .example("axes: [y, x, -z]")
-            })?;
-            *slot = (axis, sign);
-        }
-        let [(a, s), (b, t), (c, u)] = map;
-        // The sign of the permutation; 0 when an axis stands twice.
-        let parity = (b as f64 - a as f64) * (c as f64 - b as f64) * (c as f64 - a as f64) / 2.0;
-        if parity * s * t * u == 1.0 {
-            return Ok(map);
-        }
-        let problem = if parity == 0.0 { "an axis stands twice" } else { "the map is left-handed" };
-        Err(self
-            .diagnostic(Spot::Node(axes.node), problem)
-            .expected("each sensor axis once, forming a right-handed triad forward, right, down")
-            .example("[y, x, -z] for a sensor with x right, y forward, z up"))
-    }
-
     fn output(&self, output: Option<&At<written::Output>>, rate: f64) -> Result<Output, Diagnostic> {
         let Some(w) = output.map(|o| &o.value) else {
             let formats = Formats { csv: true, png: true, svg: false };
@@ -291,12 +243,5 @@ impl Document {
                 .example("every: 60 s"));
         }
         Ok(seconds)
-    }
-}
-
-fn content(content: written::Content) -> Content {
-    match content {
-        written::Content::Increments => Content::Increments,
-        written::Content::Rates => Content::Rates,
     }
 }

@@ -270,6 +270,8 @@ pub(super) enum Parsed {
 
 pub(super) fn parse_tree(text: &str) -> Result<Tree, serde_yaml::Error> {
     let options = serde_yaml::options! {
+        // YAML 1.2: `y` is the name of an axis and no boolean.
+        strict_booleans: true,
         budget: serde_yaml::budget! { max_nodes: MAX_NODES, max_depth: MAX_DEPTH },
         with_snippet: false,
     };

@@ -47,7 +47,9 @@ impl Document {
         let known: Vec<&str> = match study {
             StudyKind::Imu => [columns::IMU_ERRORS, columns::RATES, columns::INCREMENTS].concat(),
             StudyKind::Drift => columns::ERRORS.to_vec(),
-            StudyKind::Navigate => [&columns::TRAJECTORY[..], &columns::ERRORS[3..]].concat(),
+            StudyKind::Navigate => {
+                [&columns::TRAJECTORY[..], &columns::ERRORS[3..], &columns::LOG[2..]].concat()
+            }
         };
         let known: Vec<&str> =
             known.into_iter().filter(|name| columns::unit(name).is_some() && *name != "t_s").collect();

@@ -11,6 +11,7 @@ mod expect;
 mod load;
 mod overrides;
 mod quantity;
+mod recorded;
 mod schema;
 mod sources;
 mod start;
@@ -21,6 +22,6 @@ mod written;
 
 pub use schema::json_schema;
 pub use valid::{
-    Align, Channel, Content, Damping, Drift, Expect, Formats, Frame, Imu, ImuStudy, Initial, Log,
-    Mechanization, Motion, Navigate, Output, RateTable, Scenario, Start, Statistic, Study, Vertical,
+    Align, Damping, Drift, Expect, Formats, Frame, Imu, ImuStudy, Initial, Mechanization, Motion, Navigate,
+    Output, RateTable, Scenario, Start, Statistic, Study, Vertical,
 };

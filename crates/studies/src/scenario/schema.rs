@@ -39,6 +39,34 @@ impl<'de> Deserialize<'de> for Scalar {
     }
 }
 
+/// A column of a log.
+#[derive(Clone, Debug)]
+pub enum Title {
+    /// Name in the header.
+    Name(String),
+    /// Number from 1.
+    Number(u64),
+}
+
+impl<'de> Deserialize<'de> for Title {
+    fn deserialize<D: de::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct TitleVisitor;
+        impl de::Visitor<'_> for TitleVisitor {
+            type Value = Title;
+            fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+                f.write_str("the name of a column, or its number from 1")
+            }
+            fn visit_u64<E>(self, number: u64) -> Result<Title, E> {
+                Ok(Title::Number(number))
+            }
+            fn visit_str<E>(self, name: &str) -> Result<Title, E> {
+                Ok(Title::Name(name.into()))
+            }
+        }
+        deserializer.deserialize_any(TitleVisitor)
+    }
+}
+
 /// One quantity, or a list.
 #[derive(Clone, Debug)]
 pub enum OneOrMore {
@@ -99,6 +127,18 @@ impl JsonSchema for Scalar {
             "description": "A number with its unit, or a number alone where the quantity has no dimension.",
             "type": ["string", "number"],
             "examples": ["0.01 deg/h", "0.003 deg/sqrt(h)", "50 ug", "100 ppm", "24 h"],
+        })
+    }
+}
+
+impl JsonSchema for Title {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Column".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "Name of a column in the header of the log, or its number from 1.",
+            "anyOf": [{ "type": "string" }, { "type": "integer", "minimum": 1 }],
         })
     }
 }

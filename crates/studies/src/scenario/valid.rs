@@ -6,6 +6,8 @@ use hifitime::Epoch;
 use schuler_frames::{Euler, Geodetic, Gravity};
 use schuler_imu::Spec;
 
+use crate::log::{Content, LogSpec};
+
 /// A scenario that can be run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenario {
@@ -101,7 +103,7 @@ pub struct Drift {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Navigate {
     /// The recorded log.
-    pub log: Log,
+    pub log: LogSpec,
     /// Where and when the log begins; its attitude is found by `align`.
     pub start: Start,
     /// Levelling and heading from the log itself.
@@ -110,43 +112,6 @@ pub struct Navigate {
     pub mechanization: Mechanization,
     /// How much of the log after the window is navigated, s; all of it when absent.
     pub duration: Option<f64>,
-}
-
-/// A recorded IMU log, CSV or CSV.gz.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Log {
-    /// File as written: looked up in the data folder, then beside the scenario.
-    pub file: PathBuf,
-    /// Sample rate, Hz, positive.
-    pub rate: f64,
-    /// What a row holds.
-    pub content: Content,
-    /// Column of time in seconds, where the log has one.
-    pub time: Option<String>,
-    /// Gyro channels along sensor x, y, z; SI per count is rad or rad/s.
-    pub gyro: [Channel; 3],
-    /// Accelerometer channels along sensor x, y, z; SI per count is m/s or m/s².
-    pub accel: [Channel; 3],
-    /// Sensor axis (0, 1, 2) and sign that point along body x, y, z: a proper rotation.
-    pub axes: [(usize, f64); 3],
-}
-
-/// A column of a log.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Channel {
-    /// Name of the column.
-    pub column: String,
-    /// What one count is, SI.
-    pub scale: f64,
-}
-
-/// What a row of IMU data holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Content {
-    /// Integrals over the interval that ends at the row's time.
-    Increments,
-    /// Rates: means over the interval that ends at the row's time.
-    Rates,
 }
 
 /// Place, time, attitude and velocity at t = 0.
@@ -272,16 +237,6 @@ pub struct Formats {
     pub png: bool,
     /// Figures as SVG.
     pub svg: bool,
-}
-
-impl Content {
-    /// The word for it in a scenario.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Content::Increments => "increments",
-            Content::Rates => "rates",
-        }
-    }
 }
 
 /// One expected number.

@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::{
     de::At,
-    schema::{Scalar, Sources},
+    schema::{Scalar, Sources, Title},
 };
 
 /// A quantity with its unit, `0.01 deg/h`; a number alone where it has no dimension.
@@ -222,16 +222,20 @@ pub enum Gravity {
 pub struct Log {
     /// File; looked up in the data folder (`--data`, `SCHULER_DATA`), then beside the scenario.
     pub file: At<String>,
+    /// Where the data come from, for whoever does not have the file.
+    pub source: Option<String>,
     /// Samples a second.
     pub rate: Quantity,
     /// What a row holds: `increments` (integrals over the interval that ends at the row's time) or `rates`.
     pub content: Content,
-    /// Names of the columns.
+    /// Where in a row the numbers stand.
     pub columns: Columns,
     /// What one count of a column is: `{ gyro: 0.1 arcsec, accel: 1 mm/s }`; one for the instrument or three.
     pub scale: Scales,
     /// Sensor axis that points along body x (forward), y (right) and z (down): `[y, x, -z]`; `[x, y, z]` when absent.
     pub axes: Option<At<[At<String>; 3]>>,
+    /// Whether the instrument stood still at `start.position` all the time, so that drift can be told; false when absent.
+    pub stationary: Option<bool>,
 }
 
 /// What a row of a log holds.
@@ -244,16 +248,16 @@ pub enum Content {
     Rates,
 }
 
-/// Names of the columns of a log.
+/// Columns of a log.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Columns {
-    /// Time in seconds, where the log has it; it is checked for gaps and order.
-    pub time: Option<String>,
+    /// Time, where the log has it; it is checked for gaps and order.
+    pub time: Option<Title>,
     /// Gyro x, y, z.
-    pub gyro: [String; 3],
+    pub gyro: [Title; 3],
     /// Accelerometer x, y, z.
-    pub accel: [String; 3],
+    pub accel: [Title; 3],
 }
 
 /// What one count of a column is.
@@ -264,6 +268,8 @@ pub struct Scales {
     pub gyro: At<OneOrThree>,
     /// Velocity (increments) or specific force (rates) of one count.
     pub accel: At<OneOrThree>,
+    /// Time of one count of the time column; `1 s` when absent.
+    pub time: Option<Quantity>,
 }
 
 /// One quantity for all axes, or a list of three.
