@@ -1,11 +1,14 @@
 //! The injector: true motion in, measured motion out.
 
+use core::ops::Range;
+
 use crate::bank::{Bank, BankState, MAX_FIRST, MAX_SECOND, MAX_WHITE};
 use crate::error::Error;
 use crate::process::Shape;
 use crate::sample::Sample;
 use crate::term::{Coefficients, MAX_COEFFICIENTS, Term};
-use crate::{Component, Input, Instrument, Motion, Spec, Stream, TERMS, Truth};
+use crate::truth::Inputs;
+use crate::{Component, Instrument, Motion, Source, Spec, Stream, TERMS, Truth};
 
 /// A term may stand on each instrument.
 const MAX_GROUPS: usize = 2 * TERMS.len();
@@ -20,11 +23,17 @@ pub struct Imu {
     spec: Spec,
     bank: Bank,
     state: State,
+    /// Those of the gyroscopes, then those of the accelerometers.
     groups: [Option<Group>; MAX_GROUPS],
+    ranges: [Range<usize>; 2],
+    /// Interval means of the coefficients of each group.
+    sums: [Coefficients; MAX_GROUPS],
     /// Place of the coefficient that each moving part adds to: group times [`MAX_COEFFICIENTS`] plus
     /// number of the coefficient.
     targets: Targets,
-    inputs: Option<[Input; 2]>,
+    inputs: Inputs,
+    /// Whether there has been a step that the ledger can tell of.
+    stepped: bool,
 }
 
 /// Everything in an IMU that changes from step to step: save it, restore it, and the samples
@@ -63,12 +72,15 @@ impl Imu {
             bank,
             state,
             groups: [None; MAX_GROUPS],
+            ranges: [0..0, 0..0],
+            sums: [Coefficients::default(); MAX_GROUPS],
             targets: Targets {
                 white: ([0; MAX_WHITE], 0),
                 first: ([0; MAX_FIRST], 0),
                 second: ([0; MAX_SECOND], 0),
             },
-            inputs: None,
+            inputs: Inputs::NONE,
+            stepped: false,
         };
         imu.group();
         Ok(imu)
@@ -77,7 +89,7 @@ impl Imu {
     /// Starts again at t = 0 as another run of the same specification.
     pub fn restart(&mut self, stream: Stream) {
         self.state.bank = self.bank.start(&self.spec, stream.key());
-        self.inputs = None;
+        self.stepped = false;
         self.group();
     }
 
@@ -92,9 +104,9 @@ impl Imu {
         self.bank.discretise(&self.spec, dt);
         self.bank.advance(&mut self.state.bank);
         let calibration = self.spec.calibration_temperature;
-        let inputs = Instrument::ALL.map(|i| Input::new(i, truth, dt, calibration));
-        let [omega_error, f_error] = self.errors(&inputs);
-        self.inputs = Some(inputs);
+        self.inputs.see(truth, dt, calibration);
+        self.stepped = true;
+        let [omega_error, f_error] = self.errors();
         let add = |increment: [f64; 3], error: [f64; 3]| [0, 1, 2].map(|i| increment[i] + error[i] * dt);
         let scale = |mean: [f64; 3], error: [f64; 3]| [0, 1, 2].map(|i| (mean[i] + error[i]) * dt);
         let (dtheta, dv) = match truth.motion {
@@ -132,9 +144,9 @@ impl Imu {
     /// Empty before the first step.
     pub fn ledger(&self) -> impl Iterator<Item = (Component, [f64; 3])> {
         self.bank.places(&self.spec).filter_map(|(c, place)| {
-            let input = &self.inputs.as_ref()?[c.instrument() as usize];
             let mean: f64 = self.bank.means.at(place).iter().sum();
-            Some((c, c.term().regressor(input).columns()[c.coefficient()].map(|g| g * mean)))
+            let regressor = c.term().regressor(self.inputs.of(c.instrument()));
+            self.stepped.then(|| (c, regressor.columns()[c.coefficient()].map(|g| g * mean)))
         })
     }
 
@@ -143,6 +155,14 @@ impl Imu {
         self.groups = [None; MAX_GROUPS];
         for targets in [&mut self.targets.white.1, &mut self.targets.first.1, &mut self.targets.second.1] {
             *targets = 0;
+        }
+        for instrument in Instrument::ALL {
+            let of = |c: &&Source| c.instrument() == instrument;
+            let start = self.groups.iter().flatten().count();
+            for source in self.spec.sources().filter(of) {
+                group_of(&mut self.groups, instrument, source.term());
+            }
+            self.ranges[instrument as usize] = start..self.groups.iter().flatten().count();
         }
         for (c, place) in self.bank.places(&self.spec) {
             let group = group_of(&mut self.groups, c.instrument(), c.term());
@@ -164,21 +184,24 @@ impl Imu {
     }
 
     /// Output error of each instrument.
-    fn errors(&self, inputs: &[Input; 2]) -> [[f64; 3]; 2] {
-        let mut sums = [[0.0; MAX_COEFFICIENTS]; MAX_GROUPS];
-        for (sum, group) in sums.iter_mut().zip(self.groups.iter().flatten()) {
+    fn errors(&mut self) -> [[f64; 3]; 2] {
+        for (sum, group) in self.sums.iter_mut().zip(self.groups.iter().map_while(Option::as_ref)) {
             *sum = group.base;
         }
-        let flat = sums.as_flattened_mut();
+        let flat = self.sums.as_flattened_mut();
         let (t, means) = (&self.targets, &self.bank.means);
         add_to(flat, &t.white.0[..t.white.1], &means.white);
         add_to(flat, &t.first.0[..t.first.1], &means.first);
         add_to(flat, &t.second.0[..t.second.1], &means.second);
         let mut errors = [[0.0; 3]; 2];
-        for (sum, group) in sums.iter().zip(self.groups.iter().flatten()) {
-            let which = group.instrument as usize;
-            let e = group.term.output(&inputs[which], sum);
-            (0..3).for_each(|i| errors[which][i] += e[i]);
+        for (errors, instrument) in errors.iter_mut().zip(Instrument::ALL) {
+            let (range, input) = (self.ranges[instrument as usize].clone(), self.inputs.of(instrument));
+            let [mut x, mut y, mut z] = [0.0; 3];
+            for (sum, group) in self.sums[range.clone()].iter().zip(self.groups[range].iter().flatten()) {
+                let e = group.term.output(input, sum);
+                (x, y, z) = (x + e[0], y + e[1], z + e[2]);
+            }
+            *errors = [x, y, z];
         }
         errors
     }
