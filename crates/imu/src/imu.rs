@@ -2,10 +2,12 @@
 
 use core::ops::Range;
 
-use crate::bank::{Bank, BankState, MAX_FIRST, MAX_SECOND, MAX_WHITE};
+use crate::bank::{Bank, MAX_FIRST, MAX_SECOND, MAX_WHITE};
 use crate::error::Error;
 use crate::process::Shape;
+use crate::readout::{Chain, Status};
 use crate::sample::Sample;
+use crate::state::State;
 use crate::term::{Coefficients, MAX_COEFFICIENTS, Term};
 use crate::truth::Inputs;
 use crate::{Component, Instrument, Motion, Source, Spec, Stream, TERMS, Truth};
@@ -32,15 +34,12 @@ pub struct Imu {
     /// number of the coefficient.
     targets: Targets,
     inputs: Inputs,
+    chains: Option<[Chain; 2]>,
+    /// Readout's part of the error of the last sample.
+    readout_errors: [[f64; 3]; 2],
+    dt: f64,
     /// Whether there has been a step that the ledger can tell of.
     stepped: bool,
-}
-
-/// Everything in an IMU that changes from step to step: save it, restore it, and the samples
-/// repeat bit for bit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State {
-    bank: BankState,
 }
 
 /// The coefficients of one term on one instrument, summed over its sources.
@@ -65,8 +64,11 @@ impl Imu {
     /// # Errors
     /// The specification has more coefficients than the fixed capacity holds.
     pub fn new(spec: &Spec, stream: Stream) -> Result<Imu, Error> {
+        if let Some(readout) = &spec.readout {
+            readout.validate()?;
+        }
         let mut bank = Bank::new(spec)?;
-        let state = State { bank: bank.start(spec, stream.key()) };
+        let state = State::start(spec, bank.start(spec, stream.key()));
         let mut imu = Imu {
             spec: spec.clone(),
             bank,
@@ -80,6 +82,9 @@ impl Imu {
                 second: ([0; MAX_SECOND], 0),
             },
             inputs: Inputs::NONE,
+            chains: spec.readout.map(|r| [Chain::new(r.gyro), Chain::new(r.accel)]),
+            readout_errors: [[0.0; 3]; 2],
+            dt: 0.0,
             stepped: false,
         };
         imu.group();
@@ -88,7 +93,7 @@ impl Imu {
 
     /// Starts again at t = 0 as another run of the same specification.
     pub fn restart(&mut self, stream: Stream) {
-        self.state.bank = self.bank.start(&self.spec, stream.key());
+        self.state = State::start(&self.spec, self.bank.start(&self.spec, stream.key()));
         self.stepped = false;
         self.group();
     }
@@ -101,19 +106,43 @@ impl Imu {
         if !(dt > 0.0 && dt.is_finite()) {
             return Sample { dt, ..Sample::default() };
         }
-        self.bank.discretise(&self.spec, dt);
+        if dt != self.dt {
+            self.bank.discretise(&self.spec, dt);
+            self.chains.iter_mut().flatten().for_each(|c| c.discretise(dt));
+            self.dt = dt;
+        }
         self.bank.advance(&mut self.state.bank);
         let calibration = self.spec.calibration_temperature;
         self.inputs.see(truth, dt, calibration);
         self.stepped = true;
         let [omega_error, f_error] = self.errors();
+        if self.chains.is_some() {
+            return self.read_out(dt, [omega_error, f_error]);
+        }
         let add = |increment: [f64; 3], error: [f64; 3]| [0, 1, 2].map(|i| increment[i] + error[i] * dt);
         let scale = |mean: [f64; 3], error: [f64; 3]| [0, 1, 2].map(|i| (mean[i] + error[i]) * dt);
         let (dtheta, dv) = match truth.motion {
             Motion::Rates { omega, f } => (scale(omega, omega_error), scale(f, f_error)),
             Motion::Increments { dtheta, dv } => (add(dtheta, omega_error), add(dv, f_error)),
         };
-        Sample { dt, dtheta, dv, omega_error, f_error }
+        Sample { dt, dtheta, dv, omega_error, f_error, ..Sample::default() }
+    }
+
+    /// The sample that the readout makes of the input and the sources' errors.
+    fn read_out(&mut self, dt: f64, errors: [[f64; 3]; 2]) -> Sample {
+        let mut out = [([0.0; 3], Status::default()); 2];
+        let mut total = errors;
+        for (which, chain) in self.chains.iter().flatten().enumerate() {
+            let instrument = Instrument::ALL[which];
+            let (u, e) = (self.inputs.of(instrument).u, errors[which]);
+            let normals = self.bank.readout_normals(&self.state.bank, instrument);
+            let state = &mut self.state.readout[which];
+            out[which] = chain.step(state, dt, [0, 1, 2].map(|i| u[i] + e[i]), normals);
+            total[which] = [0, 1, 2].map(|i| out[which].0[i] / dt - u[i]);
+            self.readout_errors[which] = [0, 1, 2].map(|i| total[which][i] - e[i]);
+        }
+        let [(dtheta, gyro), (dv, accel)] = out;
+        Sample { dt, dtheta, dv, omega_error: total[0], f_error: total[1], gyro, accel }
     }
 
     /// One sample of `samples` for each of `truths`, all over intervals of `dt` seconds; the shorter
@@ -130,8 +159,15 @@ impl Imu {
     }
 
     /// Goes back to a state saved from this IMU, or from one of the same specification and stream.
-    pub fn restore(&mut self, state: &State) {
+    ///
+    /// # Errors
+    /// The state is of a specification with other sources. Their numbers and the stream are not compared.
+    pub fn restore(&mut self, state: &State) -> Result<(), Error> {
+        if state.fingerprint != self.state.fingerprint {
+            return Err(Error::ForeignState { reason: "its list of sources is another" });
+        }
         self.state = *state;
+        Ok(())
     }
 
     /// The specification.
@@ -140,7 +176,8 @@ impl Imu {
     }
 
     /// Contribution of every component to the last sample: measured minus true, mean over the
-    /// interval, per axis, rad/s or m/s². Over an instrument they sum to its error within rounding.
+    /// interval, per axis, rad/s or m/s². With [`Imu::readout_errors`] they
+    /// sum to the instrument's error within rounding.
     /// Empty before the first step.
     pub fn ledger(&self) -> impl Iterator<Item = (Component, [f64; 3])> {
         self.bank.places(&self.spec).filter_map(|(c, place)| {
@@ -148,6 +185,12 @@ impl Imu {
             let regressor = c.term().regressor(self.inputs.of(c.instrument()));
             self.stepped.then(|| (c, regressor.columns()[c.coefficient()].map(|g| g * mean)))
         })
+    }
+
+    /// The readout's part of the last sample's error: measured minus true minus the sum of the ledger,
+    /// of gyroscopes (rad/s) and accelerometers (m/s²).
+    pub fn readout_errors(&self) -> [[f64; 3]; 2] {
+        self.readout_errors
     }
 
     /// Sorts the coefficients by the term that they belong to.
