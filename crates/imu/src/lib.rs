@@ -25,6 +25,7 @@ mod bank;
 mod error;
 mod imu;
 mod instrument;
+pub mod preset;
 pub mod process;
 pub mod random;
 pub mod readout;

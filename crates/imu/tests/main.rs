@@ -4,6 +4,7 @@ mod api;
 mod examples;
 mod laws;
 mod philox;
+mod presets;
 mod process_laws;
 mod readout;
 mod state;
