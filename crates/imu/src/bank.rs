@@ -3,7 +3,8 @@
 use crate::error::Error;
 use crate::process::{Shape, Step};
 use crate::random::{Address, Key, Level, best_level, fill_normals};
-use crate::{Component, Spec};
+use crate::readout::DRAWS;
+use crate::{Component, Instrument, Spec};
 
 /// Most coefficients that keep their value.
 pub const MAX_CONSTANT: usize = 192;
@@ -14,7 +15,7 @@ pub const MAX_FIRST: usize = 192;
 /// Most second-order pairs of states.
 pub const MAX_SECOND: usize = 64;
 /// One draw for white noise, two for a first and three for a second order.
-const MAX_DRAWS: usize = MAX_WHITE + 2 * MAX_FIRST + 3 * MAX_SECOND;
+const MAX_DRAWS: usize = MAX_WHITE + 2 * MAX_FIRST + 3 * MAX_SECOND + 2 * DRAWS;
 /// Steps that one block of random words serves.
 const STEPS: usize = 4;
 
@@ -31,7 +32,6 @@ pub(crate) struct Place {
 pub(crate) struct Bank {
     level: Level,
     key: Key,
-    dt: f64,
     constants: usize,
     whites: usize,
     firsts: usize,
@@ -86,7 +86,6 @@ impl Bank {
         let mut bank = Bank {
             level: best_level(),
             key: Key([0; 2]),
-            dt: 0.0,
             constants: 0,
             whites: 0,
             firsts: 0,
@@ -127,8 +126,14 @@ impl Bank {
                 return Err(Error::Capacity { what, need, capacity });
             }
         }
-        bank.draws = (bank.whites + 2 * bank.firsts + 3 * bank.seconds).next_multiple_of(8);
+        let readout = if spec.readout.is_some() { 2 * DRAWS } else { 0 };
+        bank.draws = (bank.readout_draws() + readout).next_multiple_of(8);
         Ok(bank)
+    }
+
+    /// Place of the first draw of the readout.
+    fn readout_draws(&self) -> usize {
+        self.whites + 2 * self.firsts + 3 * self.seconds
     }
 
     fn count(&mut self, shape: Shape) -> &mut usize {
@@ -178,14 +183,20 @@ impl Bank {
                 }
             }
         }
+        if spec.readout.is_some() {
+            let draws = self.readout_draws();
+            for instrument in Instrument::ALL {
+                for d in 0..DRAWS {
+                    let name = format_args!("{instrument}.readout");
+                    self.addresses[draws + instrument as usize * DRAWS + d] = Address::new(&name, 0, d).0;
+                }
+            }
+        }
         state
     }
 
     /// Prepares for steps of `dt` seconds.
     pub fn discretise(&mut self, spec: &Spec, dt: f64) {
-        if dt == self.dt {
-            return;
-        }
         for (component, place) in self.places(spec) {
             if place.shape == Shape::Constant {
                 continue;
@@ -209,7 +220,13 @@ impl Bank {
                 }
             }
         }
-        self.dt = dt;
+    }
+
+    /// The readout's normals of the step that was last advanced to.
+    pub fn readout_normals(&self, state: &BankState, instrument: Instrument) -> [f64; DRAWS] {
+        let row = &self.normals[(state.step.wrapping_sub(1) % STEPS as u64) as usize];
+        let first = self.readout_draws() + instrument as usize * DRAWS;
+        [row[first], row[first + 1]]
     }
 
     /// One step of the length last prepared for.

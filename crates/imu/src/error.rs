@@ -101,6 +101,32 @@ pub enum Error {
         /// The one that has it.
         only: Instrument,
     },
+    /// A number of the readout that makes no sense.
+    #[error("readout: `{name}` is {value}, but must be {need}")]
+    Readout {
+        /// Name of the number.
+        name: &'static str,
+        /// The number found.
+        value: f64,
+        /// What it must be.
+        need: &'static str,
+    },
+    /// A number of a temperature profile that makes no sense.
+    #[error("temperature: `{name}` is {value}, but must be {need}")]
+    Temperature {
+        /// Name of the number.
+        name: &'static str,
+        /// The number found.
+        value: f64,
+        /// What it must be.
+        need: &'static str,
+    },
+    /// A state that was saved from another specification or by another version.
+    #[error("this state does not belong to this sensor: {reason}")]
+    ForeignState {
+        /// What differs.
+        reason: &'static str,
+    },
     /// More than a fixed capacity holds.
     #[error("too many {what}: this specification needs {need}, the crate holds {capacity}")]
     Capacity {

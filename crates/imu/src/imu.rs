@@ -1,11 +1,16 @@
 //! The injector: true motion in, measured motion out.
 
-use crate::bank::{Bank, BankState, MAX_FIRST, MAX_SECOND, MAX_WHITE};
+use core::ops::Range;
+
+use crate::bank::{Bank, MAX_FIRST, MAX_SECOND, MAX_WHITE};
 use crate::error::Error;
 use crate::process::Shape;
+use crate::readout::{Chain, Status};
 use crate::sample::Sample;
+use crate::state::State;
 use crate::term::{Coefficients, MAX_COEFFICIENTS, Term};
-use crate::{Component, Input, Instrument, Motion, Spec, Stream, TERMS, Truth};
+use crate::truth::Inputs;
+use crate::{Component, Instrument, Motion, Source, Spec, Stream, TERMS, Truth};
 
 /// A term may stand on each instrument.
 const MAX_GROUPS: usize = 2 * TERMS.len();
@@ -20,18 +25,21 @@ pub struct Imu {
     spec: Spec,
     bank: Bank,
     state: State,
+    /// Those of the gyroscopes, then those of the accelerometers.
     groups: [Option<Group>; MAX_GROUPS],
+    ranges: [Range<usize>; 2],
+    /// Interval means of the coefficients of each group.
+    sums: [Coefficients; MAX_GROUPS],
     /// Place of the coefficient that each moving part adds to: group times [`MAX_COEFFICIENTS`] plus
     /// number of the coefficient.
     targets: Targets,
-    inputs: Option<[Input; 2]>,
-}
-
-/// Everything in an IMU that changes from step to step: save it, restore it, and the samples
-/// repeat bit for bit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State {
-    bank: BankState,
+    inputs: Inputs,
+    chains: Option<[Chain; 2]>,
+    /// Readout's part of the error of the last sample.
+    readout_errors: [[f64; 3]; 2],
+    dt: f64,
+    /// Whether there has been a step that the ledger can tell of.
+    stepped: bool,
 }
 
 /// The coefficients of one term on one instrument, summed over its sources.
@@ -56,19 +64,28 @@ impl Imu {
     /// # Errors
     /// The specification has more coefficients than the fixed capacity holds.
     pub fn new(spec: &Spec, stream: Stream) -> Result<Imu, Error> {
+        if let Some(readout) = &spec.readout {
+            readout.validate()?;
+        }
         let mut bank = Bank::new(spec)?;
-        let state = State { bank: bank.start(spec, stream.key()) };
+        let state = State::start(spec, bank.start(spec, stream.key()));
         let mut imu = Imu {
             spec: spec.clone(),
             bank,
             state,
             groups: [None; MAX_GROUPS],
+            ranges: [0..0, 0..0],
+            sums: [Coefficients::default(); MAX_GROUPS],
             targets: Targets {
                 white: ([0; MAX_WHITE], 0),
                 first: ([0; MAX_FIRST], 0),
                 second: ([0; MAX_SECOND], 0),
             },
-            inputs: None,
+            inputs: Inputs::NONE,
+            chains: spec.readout.map(|r| [Chain::new(r.gyro), Chain::new(r.accel)]),
+            readout_errors: [[0.0; 3]; 2],
+            dt: 0.0,
+            stepped: false,
         };
         imu.group();
         Ok(imu)
@@ -76,8 +93,8 @@ impl Imu {
 
     /// Starts again at t = 0 as another run of the same specification.
     pub fn restart(&mut self, stream: Stream) {
-        self.state.bank = self.bank.start(&self.spec, stream.key());
-        self.inputs = None;
+        self.state = State::start(&self.spec, self.bank.start(&self.spec, stream.key()));
+        self.stepped = false;
         self.group();
     }
 
@@ -89,19 +106,43 @@ impl Imu {
         if !(dt > 0.0 && dt.is_finite()) {
             return Sample { dt, ..Sample::default() };
         }
-        self.bank.discretise(&self.spec, dt);
+        if dt != self.dt {
+            self.bank.discretise(&self.spec, dt);
+            self.chains.iter_mut().flatten().for_each(|c| c.discretise(dt));
+            self.dt = dt;
+        }
         self.bank.advance(&mut self.state.bank);
         let calibration = self.spec.calibration_temperature;
-        let inputs = Instrument::ALL.map(|i| Input::new(i, truth, dt, calibration));
-        let [omega_error, f_error] = self.errors(&inputs);
-        self.inputs = Some(inputs);
+        self.inputs.see(truth, dt, calibration);
+        self.stepped = true;
+        let [omega_error, f_error] = self.errors();
+        if self.chains.is_some() {
+            return self.read_out(dt, [omega_error, f_error]);
+        }
         let add = |increment: [f64; 3], error: [f64; 3]| [0, 1, 2].map(|i| increment[i] + error[i] * dt);
         let scale = |mean: [f64; 3], error: [f64; 3]| [0, 1, 2].map(|i| (mean[i] + error[i]) * dt);
         let (dtheta, dv) = match truth.motion {
             Motion::Rates { omega, f } => (scale(omega, omega_error), scale(f, f_error)),
             Motion::Increments { dtheta, dv } => (add(dtheta, omega_error), add(dv, f_error)),
         };
-        Sample { dt, dtheta, dv, omega_error, f_error }
+        Sample { dt, dtheta, dv, omega_error, f_error, ..Sample::default() }
+    }
+
+    /// The sample that the readout makes of the input and the sources' errors.
+    fn read_out(&mut self, dt: f64, errors: [[f64; 3]; 2]) -> Sample {
+        let mut out = [([0.0; 3], Status::default()); 2];
+        let mut total = errors;
+        for (which, chain) in self.chains.iter().flatten().enumerate() {
+            let instrument = Instrument::ALL[which];
+            let (u, e) = (self.inputs.of(instrument).u, errors[which]);
+            let normals = self.bank.readout_normals(&self.state.bank, instrument);
+            let state = &mut self.state.readout[which];
+            out[which] = chain.step(state, dt, [0, 1, 2].map(|i| u[i] + e[i]), normals);
+            total[which] = [0, 1, 2].map(|i| out[which].0[i] / dt - u[i]);
+            self.readout_errors[which] = [0, 1, 2].map(|i| total[which][i] - e[i]);
+        }
+        let [(dtheta, gyro), (dv, accel)] = out;
+        Sample { dt, dtheta, dv, omega_error: total[0], f_error: total[1], gyro, accel }
     }
 
     /// One sample of `samples` for each of `truths`, all over intervals of `dt` seconds; the shorter
@@ -118,8 +159,15 @@ impl Imu {
     }
 
     /// Goes back to a state saved from this IMU, or from one of the same specification and stream.
-    pub fn restore(&mut self, state: &State) {
+    ///
+    /// # Errors
+    /// The state is of a specification with other sources. Their numbers and the stream are not compared.
+    pub fn restore(&mut self, state: &State) -> Result<(), Error> {
+        if state.fingerprint != self.state.fingerprint {
+            return Err(Error::ForeignState { reason: "its list of sources is another" });
+        }
         self.state = *state;
+        Ok(())
     }
 
     /// The specification.
@@ -128,14 +176,21 @@ impl Imu {
     }
 
     /// Contribution of every component to the last sample: measured minus true, mean over the
-    /// interval, per axis, rad/s or m/s². Over an instrument they sum to its error within rounding.
+    /// interval, per axis, rad/s or m/s². With [`Imu::readout_errors`] they
+    /// sum to the instrument's error within rounding.
     /// Empty before the first step.
     pub fn ledger(&self) -> impl Iterator<Item = (Component, [f64; 3])> {
         self.bank.places(&self.spec).filter_map(|(c, place)| {
-            let input = &self.inputs.as_ref()?[c.instrument() as usize];
             let mean: f64 = self.bank.means.at(place).iter().sum();
-            Some((c, c.term().regressor(input).columns()[c.coefficient()].map(|g| g * mean)))
+            let regressor = c.term().regressor(self.inputs.of(c.instrument()));
+            self.stepped.then(|| (c, regressor.columns()[c.coefficient()].map(|g| g * mean)))
         })
+    }
+
+    /// The readout's part of the last sample's error: measured minus true minus the sum of the ledger,
+    /// of gyroscopes (rad/s) and accelerometers (m/s²).
+    pub fn readout_errors(&self) -> [[f64; 3]; 2] {
+        self.readout_errors
     }
 
     /// Sorts the coefficients by the term that they belong to.
@@ -143,6 +198,14 @@ impl Imu {
         self.groups = [None; MAX_GROUPS];
         for targets in [&mut self.targets.white.1, &mut self.targets.first.1, &mut self.targets.second.1] {
             *targets = 0;
+        }
+        for instrument in Instrument::ALL {
+            let of = |c: &&Source| c.instrument() == instrument;
+            let start = self.groups.iter().flatten().count();
+            for source in self.spec.sources().filter(of) {
+                group_of(&mut self.groups, instrument, source.term());
+            }
+            self.ranges[instrument as usize] = start..self.groups.iter().flatten().count();
         }
         for (c, place) in self.bank.places(&self.spec) {
             let group = group_of(&mut self.groups, c.instrument(), c.term());
@@ -164,21 +227,24 @@ impl Imu {
     }
 
     /// Output error of each instrument.
-    fn errors(&self, inputs: &[Input; 2]) -> [[f64; 3]; 2] {
-        let mut sums = [[0.0; MAX_COEFFICIENTS]; MAX_GROUPS];
-        for (sum, group) in sums.iter_mut().zip(self.groups.iter().flatten()) {
+    fn errors(&mut self) -> [[f64; 3]; 2] {
+        for (sum, group) in self.sums.iter_mut().zip(self.groups.iter().map_while(Option::as_ref)) {
             *sum = group.base;
         }
-        let flat = sums.as_flattened_mut();
+        let flat = self.sums.as_flattened_mut();
         let (t, means) = (&self.targets, &self.bank.means);
         add_to(flat, &t.white.0[..t.white.1], &means.white);
         add_to(flat, &t.first.0[..t.first.1], &means.first);
         add_to(flat, &t.second.0[..t.second.1], &means.second);
         let mut errors = [[0.0; 3]; 2];
-        for (sum, group) in sums.iter().zip(self.groups.iter().flatten()) {
-            let which = group.instrument as usize;
-            let e = group.term.output(&inputs[which], sum);
-            (0..3).for_each(|i| errors[which][i] += e[i]);
+        for (errors, instrument) in errors.iter_mut().zip(Instrument::ALL) {
+            let (range, input) = (self.ranges[instrument as usize].clone(), self.inputs.of(instrument));
+            let [mut x, mut y, mut z] = [0.0; 3];
+            for (sum, group) in self.sums[range.clone()].iter().zip(self.groups[range].iter().flatten()) {
+                let e = group.term.output(input, sum);
+                (x, y, z) = (x + e[0], y + e[1], z + e[2]);
+            }
+            *errors = [x, y, z];
         }
         errors
     }

@@ -1,3 +1,5 @@
+use crate::readout::Status;
+
 /// One output of the IMU, along sensor axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sample {
@@ -11,6 +13,10 @@ pub struct Sample {
     pub omega_error: [f64; 3],
     /// Measured minus true specific force, mean over the interval, m/s².
     pub f_error: [f64; 3],
+    /// What the readout did to the gyroscopes' sample.
+    pub gyro: Status,
+    /// What the readout did to the accelerometers' sample.
+    pub accel: Status,
 }
 
 impl Sample {

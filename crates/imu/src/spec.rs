@@ -3,6 +3,7 @@
 use core::fmt::{self, Write};
 
 use crate::error::Error;
+use crate::readout::Readout;
 use crate::{Component, Source, Truth};
 
 /// Most sources in a specification.
@@ -15,6 +16,8 @@ pub struct Spec {
     len: usize,
     /// Temperature at which thermal terms vanish, K.
     pub calibration_temperature: f64,
+    /// What happens to the sum; `None` passes it through.
+    pub readout: Option<Readout>,
 }
 
 impl Default for Spec {
@@ -26,7 +29,12 @@ impl Default for Spec {
 impl Spec {
     /// A perfect IMU: no sources, calibrated at 20 °C.
     pub const fn new() -> Spec {
-        Spec { sources: [None; MAX_SOURCES], len: 0, calibration_temperature: Truth::TEMPERATURE }
+        Spec {
+            sources: [None; MAX_SOURCES],
+            len: 0,
+            calibration_temperature: Truth::TEMPERATURE,
+            readout: None,
+        }
     }
 
     /// Adds a source. Where one of the same instrument, term and process exists, it is `#2`, `#3`, ….
@@ -81,14 +89,14 @@ impl Spec {
         })
     }
 
-    /// Only that component; its random draws are those of the full specification.
+    /// Only that component, without readout; its random draws are those of the full specification.
     pub fn only(&self, component: &Component) -> Spec {
         self.keep(|c| c.is(component))
     }
 
     /// All but that component; the others' random draws are as they were.
     pub fn without(&self, component: &Component) -> Spec {
-        self.keep(|c| !c.is(component))
+        Spec { readout: self.readout, ..self.keep(|c| !c.is(component)) }
     }
 
     /// Only the components that `wanted` says; their random draws are as they were.

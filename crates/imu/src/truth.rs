@@ -100,23 +100,57 @@ pub struct Input {
 }
 
 impl Input {
+    const NONE: Input = Input {
+        u: [0.0; 3],
+        omega: [0.0; 3],
+        f: [0.0; 3],
+        omega_dot: [0.0; 3],
+        delta_t: 0.0,
+        temperature_rate: 0.0,
+        vibration: [0.0; 3],
+    };
+
     /// What `instrument`, calibrated at `calibration` (K), sees of `truth` over an interval of `dt` seconds.
     pub fn new(instrument: Instrument, truth: &Truth, dt: f64, calibration: f64) -> Input {
+        let mut both = Inputs::NONE;
+        both.see(truth, dt, calibration);
+        match instrument {
+            Instrument::Gyro => both.gyro,
+            Instrument::Accel => both.accel,
+        }
+    }
+}
+
+/// What both instruments see, written in place: this is on the hot path.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Inputs {
+    pub gyro: Input,
+    pub accel: Input,
+}
+
+impl Inputs {
+    pub const NONE: Inputs = Inputs { gyro: Input::NONE, accel: Input::NONE };
+
+    pub fn of(&self, instrument: Instrument) -> &Input {
+        match instrument {
+            Instrument::Gyro => &self.gyro,
+            Instrument::Accel => &self.accel,
+        }
+    }
+
+    #[inline]
+    pub fn see(&mut self, truth: &Truth, dt: f64, calibration: f64) {
         let (omega, f) = match truth.motion {
             Motion::Rates { omega, f } => (omega, f),
             Motion::Increments { dtheta, dv } => (dtheta.map(|d| d / dt), dv.map(|d| d / dt)),
         };
-        Input {
-            u: match instrument {
-                Instrument::Gyro => omega,
-                Instrument::Accel => f,
-            },
-            omega,
-            f,
-            omega_dot: truth.omega_dot,
-            delta_t: truth.temperature - calibration,
-            temperature_rate: truth.temperature_rate,
-            vibration: truth.vibration,
+        (self.gyro.u, self.accel.u) = (omega, f);
+        for input in [&mut self.gyro, &mut self.accel] {
+            (input.omega, input.f) = (omega, f);
+            input.omega_dot = truth.omega_dot;
+            input.delta_t = truth.temperature - calibration;
+            input.temperature_rate = truth.temperature_rate;
+            input.vibration = truth.vibration;
         }
     }
 }

@@ -93,7 +93,7 @@ fn a_restored_state_repeats_its_samples() {
     let saved = imu.save();
     let first: Vec<_> = (0..50).map(|_| imu.step(0.02, &TRUTH)).collect();
     imu.step(0.3, &TRUTH);
-    imu.restore(&saved);
+    imu.restore(&saved).unwrap();
     let again: Vec<_> = (0..50).map(|_| imu.step(0.02, &TRUTH)).collect();
     assert_eq!(first, again);
 }

@@ -1,9 +1,17 @@
 //! Tests of the error model.
 
+mod allocation;
 mod api;
+mod cost_of_a_term;
 mod examples;
 mod laws;
 mod philox;
+mod presets;
 mod process_laws;
+mod readout;
+mod recovery;
+mod state;
+mod streams;
+mod temperature;
 mod terms;
 mod unit;

@@ -8,4 +8,4 @@ pub use fearless_simd::Level;
 pub use lanes::{best_level, fill_normals};
 pub use philox::philox4x32_10;
 pub use stream::Stream;
-pub(crate) use stream::{Address, Key};
+pub(crate) use stream::{Address, Fnv, Key};
