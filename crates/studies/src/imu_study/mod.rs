@@ -11,7 +11,8 @@ use schuler_imu::{Imu, Instrument, Sample, Stream};
 use crate::{
     Context, Error, Scenario,
     record::{Cell, Record, Table, columns},
-    scenario::{Content, ImuStudy, Motion},
+    log::Content,
+    scenario::{ImuStudy, Motion},
 };
 use profile::Profile;
 use statistics::Statistics;
