@@ -4,6 +4,7 @@ mod diagnostic;
 pub mod drift;
 mod error;
 pub mod figure;
+pub mod imu_study;
 pub mod log;
 mod progress;
 pub mod record;

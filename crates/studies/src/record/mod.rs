@@ -1,31 +1,39 @@
 //! What a study found: named columns with units, a summary, figures and verdicts, under one header.
 
+mod csv;
+mod folder;
+mod summary;
 mod table;
+#[cfg(test)]
+mod tests;
+mod verdict;
 
+pub use folder::Folder;
 pub use table::{Cell, Column, Table, columns};
 
-use crate::Scenario;
-use crate::figure::Figure;
+use serde::Serialize;
 
-/// The result of a study, complete in memory; `Record::write` makes a folder of it.
+use crate::{Scenario, figure::Figure};
+
+/// The result of a study, complete in memory; a [`Folder`] makes files of it.
 #[derive(Clone, Debug)]
 pub struct Record {
     /// From what and with what.
     pub header: Header,
     /// Curves and samples, one CSV file each (`errors`, `trajectory`, `imu`).
     pub tables: Vec<Table>,
+    /// Pictures by the stem of their file.
+    pub figures: Vec<(String, Figure)>,
     /// The table for the terminal and `summary.json`: few rows, one per source or axis.
     pub summary: Table,
     /// Remarks a reader of the numbers must know (a bound, a formula's limit), one sentence each.
     pub notes: Vec<String>,
-    /// The figures, each with the stem of its file.
-    pub figures: Vec<(String, Figure)>,
     /// Each `expect` of the scenario with its verdict.
     pub verdicts: Vec<Verdict>,
 }
 
 /// From what, and with what, a record was made: enough to make it again.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Header {
     /// Version of Schuler.
     pub version: String,
@@ -46,7 +54,7 @@ pub struct Header {
 }
 
 /// An `expect` of the scenario beside what the study found.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Verdict {
     /// What was compared, in words: `dn_m of gyro.bias.constant.x, exact, at 24 h`.
     pub what: String,

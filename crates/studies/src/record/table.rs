@@ -188,6 +188,9 @@ pub mod columns {
     /// `imu.csv` with means over the interval that ends at `t_s`.
     pub const RATES: [&str; 7] =
         ["t_s", "omega_x_radps", "omega_y_radps", "omega_z_radps", "f_x_mps2", "f_y_mps2", "f_z_mps2"];
+    /// `imu_errors.csv`: measured minus true, means over the interval that ends at `t_s`.
+    pub const IMU_ERRORS: [&str; 7] =
+        ["t_s", "domega_x_radps", "domega_y_radps", "domega_z_radps", "df_x_mps2", "df_y_mps2", "df_z_mps2"];
     /// `way` of `errors.csv`.
     pub const WAYS: [&str; 5] = ["nonlinear", "half_difference", "linear", "exact", "single_axis"];
 

@@ -45,7 +45,7 @@ impl Document {
     /// The unit of an output column of the study.
     fn quantity_unit(&self, quantity: &At<String>, study: StudyKind) -> Result<Unit, Diagnostic> {
         let known: Vec<&str> = match study {
-            StudyKind::Imu => [columns::RATES, columns::INCREMENTS].concat(),
+            StudyKind::Imu => [columns::IMU_ERRORS, columns::RATES, columns::INCREMENTS].concat(),
             StudyKind::Drift => columns::ERRORS.to_vec(),
             StudyKind::Navigate => [&columns::TRAJECTORY[..], &columns::ERRORS[3..]].concat(),
         };

@@ -1,0 +1,123 @@
+//! The measurement study: what the errors of an IMU look like in its samples, beside what theory expects.
+
+mod figures;
+mod normal;
+mod profile;
+mod statistics;
+mod theory;
+
+use schuler_imu::{Imu, Instrument, Sample, Stream};
+
+use crate::{
+    Context, Error, Scenario,
+    record::{Cell, Record, Table, columns},
+    scenario::{Content, ImuStudy, Motion},
+};
+use profile::Profile;
+use statistics::Statistics;
+use theory::Theory;
+
+/// Samples between two reports of progress.
+const REPORT: u64 = 10_000;
+
+/// Runs the study: every sample goes through the error model, statistics are over all of them, rows and
+/// figures keep those of `output.every`.
+///
+/// # Errors
+/// The IMU refuses its list of sources.
+pub fn run(scenario: &Scenario, study: &ImuStudy, context: &Context) -> Result<Record, Error> {
+    let dt = 1.0 / study.imu.rate;
+    let profile = Profile::new(study);
+    let mut imu = Imu::new(&study.imu.spec, Stream { seed: scenario.seed, run: 0 })?;
+    let mut theory = Theory::new(&study.imu.spec, dt);
+    let mut statistics = [[Statistics::default(); 3]; 2];
+    let measured_columns = match scenario.output.imu {
+        Content::Increments => columns::INCREMENTS,
+        Content::Rates => columns::RATES,
+    };
+    let mut measured = Table::new("imu", &measured_columns, &[]);
+    let mut errors = Table::new("imu_errors", &columns::IMU_ERRORS, &[]);
+    let stride = scenario.output.every.map_or(1, |every| (every * study.imu.rate).round() as u64);
+
+    context.progress.begin("samples", study.samples);
+    for k in 0..study.samples {
+        let truth = profile.truth(k);
+        let sample = imu.step(dt, &truth);
+        theory.add(&truth);
+        for (statistics, error) in statistics.iter_mut().zip([sample.omega_error, sample.f_error]) {
+            for (statistics, error) in statistics.iter_mut().zip(error) {
+                statistics.add(error);
+            }
+        }
+        if (k + 1).is_multiple_of(stride) {
+            let t = (k + 1) as f64 / study.imu.rate;
+            measured.push(&row(t, measurement(&sample, scenario.output.imu)));
+            errors.push(&row(t, [sample.omega_error, sample.f_error]));
+        }
+        if (k + 1).is_multiple_of(REPORT) {
+            context.progress.advance(REPORT);
+        }
+    }
+
+    let mut record = Record::new(scenario, summary(&statistics, &theory));
+    record.figures = figures::figures(scenario, study, &errors, &theory);
+    record.notes.push(
+        "Low and high bound what theory expects with 99 % probability each; of many numbers some lie outside by chance".into(),
+    );
+    if study.motion == Motion::ZeroTruth {
+        record.notes.push(
+            "The true input is zero, so only biases act: scale factors and misalignments need a motion that excites them".into(),
+        );
+    }
+    record.tables = vec![measured, errors];
+    Ok(record)
+}
+
+fn measurement(sample: &Sample, content: Content) -> [[f64; 3]; 2] {
+    match content {
+        Content::Increments => [sample.dtheta, sample.dv],
+        Content::Rates => [sample.omega(), sample.f()],
+    }
+}
+
+fn row(t: f64, [gyro, accel]: [[f64; 3]; 2]) -> [Cell<'static>; 7] {
+    [t, gyro[0], gyro[1], gyro[2], accel[0], accel[1], accel[2]].map(Cell::Number)
+}
+
+/// Mean, standard deviation and extremes of the error per axis beside theory.
+fn summary(statistics: &[[Statistics; 3]; 2], theory: &Theory) -> Table {
+    let names = ["axis", "quantity", "found", "expected", "low", "high", "unit", "inside"];
+    let mut table = Table::new("summary", &names, &["axis", "quantity", "unit", "inside"]);
+    for (i, instrument) in Instrument::ALL.into_iter().enumerate() {
+        let unit = instrument.unit().to_string();
+        for (j, axis) in ["x", "y", "z"].into_iter().enumerate() {
+            let (found, expected) = (&statistics[i][j], theory.expected(i, j));
+            let name = format!("{instrument}.{axis}");
+            let mut add = |quantity: &str, found: f64, [expected, low, high]: [f64; 3], unit: &str| {
+                let inside = match () {
+                    () if low.is_nan() => "-",
+                    () if (low..=high).contains(&found) => "yes",
+                    () => "no",
+                };
+                let cells: [Cell; 8] = [
+                    name.as_str().into(),
+                    quantity.into(),
+                    found.into(),
+                    expected.into(),
+                    low.into(),
+                    high.into(),
+                    unit.into(),
+                    inside.into(),
+                ];
+                table.push(&cells);
+            };
+            let none = [f64::NAN; 3];
+            add("mean", found.mean(), expected.mean, &unit);
+            add("sd", found.deviation(), expected.deviation, &unit);
+            add("min", found.min(), none, &unit);
+            add("max", found.max(), none, &unit);
+            add("largest/sd", found.largest() / expected.deviation[0], expected.largest, "1");
+        }
+    }
+    table
+}

@@ -1,0 +1,104 @@
+use std::fs;
+
+use super::{Cell, Folder, Record, Table};
+use crate::{Error, Scenario, figure};
+
+const SCENARIO: &str = "\
+schuler: 1
+study: imu
+title: A test
+motion: zero_truth
+duration: 1 s
+imu: { rate: 4 Hz }
+expect:
+  - { quantity: omega_x_radps, at: mean, value: 2.5 rad/s, tolerance: 0 rad/s }
+  - { quantity: omega_x_radps, at: sd, value: 1.2909944487358056 rad/s, tolerance: 1e-15 rad/s }
+  - { quantity: omega_x_radps, at: 0.5 s, value: 2 rad/s, tolerance: 10 % }
+  - { quantity: omega_x_radps, at: largest, value: 4.1 rad/s, tolerance: 1 % }
+  - { quantity: omega_y_radps, at: final, value: 0 rad/s, tolerance: 1 rad/s }
+";
+
+fn record() -> (Scenario, Record) {
+    let scenario = Scenario::load("a.yaml", SCENARIO, &[]).expect("valid");
+    let mut record = Record::new(&scenario, Table::new("summary", &["axis", "mean_radps"], &["axis"]));
+    record.summary.push(&["gyro, x".into(), f64::NAN.into()]);
+    let mut table = Table::new("imu", &["t_s", "omega_x_radps"], &[]);
+    for k in 1..=4 {
+        table.push(&[(0.25 * f64::from(k)).into(), f64::from(k).into()]);
+    }
+    record.tables.push(table);
+    let panel = figure::Panel::new(figure::Axis::linear("rate (rad/s)"));
+    let panel = panel.with(figure::Series::line("x", [[0.0, 0.0], [1.0, 1.0]]));
+    record
+        .figures
+        .push(("gyro".into(), figure::Figure::new("Rate", figure::Axis::time("time")).panel(panel)));
+    record.judge(&scenario);
+    (scenario, record)
+}
+
+/// 1, 2, 3, 4: mean 2.5, standard deviation sqrt(5/3).
+#[test]
+fn verdicts() {
+    let (_, record) = record();
+    let holds: Vec<bool> = record.verdicts.iter().map(|v| v.holds).collect();
+    assert_eq!(holds, [true, true, true, false, false], "{:#?}", record.verdicts);
+    assert!(record.verdicts[4].found.is_nan());
+    assert!(!record.holds());
+}
+
+#[test]
+fn csv_reads_back() {
+    let mut table = Table::new("t", &["source", "x"], &["source"]);
+    let values = [1.0 / 3.0, 1e-300, -0.0, 1e17, f64::MIN_POSITIVE, f64::NAN];
+    for value in values {
+        table.push(&["a \"b\", c".into(), Cell::Number(value)]);
+    }
+    let mut text = Vec::new();
+    table.write_csv(&mut text).expect("a vector takes all");
+    let text = String::from_utf8(text).expect("UTF-8");
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("source,x"));
+    for (line, value) in lines.zip(values) {
+        let number = line.strip_prefix("\"a \"\"b\"\", c\",").expect("a quoted word");
+        match number {
+            "" => assert!(value.is_nan()),
+            _ => assert_eq!(number.parse::<f64>().map(f64::to_bits), Ok(value.to_bits())),
+        }
+    }
+}
+
+#[test]
+fn a_folder_is_whole_or_not_there() {
+    let (scenario, record) = record();
+    let base = std::env::temp_dir().join(format!("schuler-record-{}", std::process::id()));
+    let path = base.join("deep/run");
+    // Twice: the second run takes the place of the first.
+    for _ in 0..2 {
+        let folder = Folder::check(&path).expect("a place");
+        folder.write(&record, scenario.output.formats).expect("written");
+    }
+    let summary: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(path.join("summary.json")).expect("a summary"))
+            .expect("JSON");
+    assert_eq!(summary["header"]["seed"], 1);
+    assert_eq!(summary["expect"][0]["holds"], true);
+    assert_eq!(summary["table"][0]["mean_radps"], serde_json::Value::Null);
+    assert_eq!(summary["files"], serde_json::json!(["imu.csv", "figures/gyro.png", "summary.json"]));
+    assert!(path.join("figures/gyro.png").is_file());
+    let beside = |path: &std::path::Path| fs::read_dir(path).expect("a folder").count();
+    assert_eq!(beside(&base.join("deep")), 1);
+
+    // Somebody's own file stays.
+    fs::write(path.join("notes.txt"), "mine").expect("written");
+    assert!(matches!(Folder::check(&path), Err(Error::Write { .. })));
+    // A file is no folder, and nothing can be made below it.
+    assert!(matches!(Folder::check(path.join("notes.txt")), Err(Error::Write { .. })));
+    assert!(matches!(Folder::check(path.join("notes.txt/run")), Err(Error::Write { .. })));
+    // A record that cannot be written leaves what was there.
+    let mut broken = record.clone();
+    broken.tables[0].name = "no/such/folder".into();
+    let other = Folder::check(base.join("other")).expect("a place");
+    assert!(other.write(&broken, scenario.output.formats).is_err());
+    assert_eq!(beside(&base), 1);
+    fs::remove_dir_all(&base).expect("removed");
+}
