@@ -1,0 +1,70 @@
+//! Arguments of the command line.
+
+use std::path::PathBuf;
+
+use clap::{Args as ClapArgs, Parser, Subcommand};
+
+/// Strapdown-navigation error propagation: IMU error sources, mechanization, drift, alignment.
+#[derive(Debug, Parser)]
+#[command(name = "schuler", version, about, max_term_width = 100)]
+#[command(after_help = "Exit codes: 0 success, 1 an `expect` of a scenario failed, 2 bad input.")]
+pub struct Args {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run scenarios; write tables, figures and a summary of each into a folder.
+    Run(RunArgs),
+    /// Read scenarios and say whether they are valid; nothing is run or written.
+    Check(ScenarioArgs),
+    /// Print the JSON Schema of the scenario format.
+    Schema,
+    /// Print the tables of error terms and processes.
+    Sources,
+    /// Print completions for a shell.
+    Completions {
+        /// The shell.
+        shell: clap_complete::Shell,
+    },
+}
+
+/// Which scenarios, and what is changed in them.
+#[derive(Debug, ClapArgs)]
+pub struct ScenarioArgs {
+    /// Scenario files (YAML).
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Change a value before the scenario is checked: imu.rate='200 Hz', imu.gyro[0].bias.…; repeatable.
+    #[arg(long, value_name = "KEY.PATH=VALUE")]
+    pub set: Vec<String>,
+    /// Master seed of every random draw; the same as --set seed=N.
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+}
+
+/// Arguments of `run`.
+#[derive(Debug, ClapArgs)]
+pub struct RunArgs {
+    #[command(flatten)]
+    pub scenarios: ScenarioArgs,
+    /// Folder of the results; out/<name of the scenario> when absent. Of several scenarios, each gets a folder in it.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Folder of recorded logs.
+    #[arg(long, value_name = "DIR", env = "SCHULER_DATA")]
+    pub data: Option<PathBuf>,
+    /// Print nothing but errors.
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+impl ScenarioArgs {
+    /// Every change of the document, in order.
+    pub fn overrides(&self) -> Vec<String> {
+        self.set.iter().cloned().chain(self.seed.map(|seed| format!("seed={seed}"))).collect()
+    }
+}

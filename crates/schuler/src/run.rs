@@ -1,0 +1,106 @@
+//! `run` and `check`.
+
+use std::{
+    io::{self, Write},
+    path::{Path, PathBuf},
+};
+
+use schuler_studies::{Context, Error, Record, Scenario, record::Folder, run as run_study};
+
+use crate::{
+    End,
+    args::{RunArgs, ScenarioArgs},
+    progress::Bar,
+    report::report,
+};
+
+/// Checks scenarios.
+pub fn check(args: &ScenarioArgs) -> io::Result<End> {
+    let mut end = End::Success;
+    for file in &args.files {
+        match Scenario::from_file(file, &args.overrides()) {
+            Ok(scenario) => {
+                writeln!(io::stdout(), "{}: valid, {} study", file.display(), scenario.study.name())?;
+            }
+            Err(error) => {
+                report(&error)?;
+                end = End::BadInput;
+            }
+        }
+    }
+    Ok(end)
+}
+
+/// Runs scenarios. All are checked before the first one runs.
+pub fn run(args: &RunArgs) -> io::Result<End> {
+    let mut jobs = Vec::new();
+    for file in &args.scenarios.files {
+        let job = Scenario::from_file(file, &args.scenarios.overrides())
+            .and_then(|scenario| Ok((scenario, Folder::check(out(args, file))?)));
+        match job {
+            Ok(job) => jobs.push(job),
+            Err(error) => report(&error)?,
+        }
+    }
+    if jobs.len() < args.scenarios.files.len() {
+        return Ok(End::BadInput);
+    }
+    let mut end = End::Success;
+    for (scenario, folder) in &jobs {
+        let record = match one(args, scenario, folder) {
+            Ok(record) => record,
+            Err(error) => {
+                report(&error)?;
+                return Ok(End::BadInput);
+            }
+        };
+        if !args.quiet {
+            writeln!(io::stdout(), "{}\nwritten to {}", record.summary_text(), folder.path().display())?;
+        }
+        if !record.holds() {
+            let failed = record.verdicts.iter().filter(|v| !v.holds);
+            for verdict in failed {
+                writeln!(
+                    io::stderr(),
+                    "expect failed: {} is {}, expected {} ± {}",
+                    verdict.what,
+                    verdict.found,
+                    verdict.expected,
+                    verdict.tolerance
+                )?;
+            }
+            end = End::ExpectFailed;
+        }
+    }
+    Ok(end)
+}
+
+fn one(args: &RunArgs, scenario: &Scenario, folder: &Folder) -> Result<Record, Error> {
+    let bar = Bar::new(args.quiet);
+    let context = Context { data: args.data.clone(), progress: &bar };
+    let result = run_study(scenario, &context);
+    bar.finish();
+    let mut record = result?;
+    record.header.command = command();
+    folder.write(&record, scenario.output.formats)?;
+    Ok(record)
+}
+
+/// What was typed.
+fn command() -> String {
+    let words = std::env::args().skip(1).map(|word| match word.contains([' ', '\'', '"', '(', '[']) {
+        true => format!("'{}'", word.replace('\'', "'\\''")),
+        false => word,
+    });
+    std::iter::once("schuler".to_string()).chain(words).collect::<Vec<_>>().join(" ")
+}
+
+/// The folder of a scenario's results.
+fn out(args: &RunArgs, file: &Path) -> PathBuf {
+    let stem = file.file_stem().unwrap_or(file.as_os_str());
+    match &args.out {
+        Some(out) if args.scenarios.files.len() == 1 => out.clone(),
+        Some(out) => out.join(stem),
+        None => Path::new("out").join(stem),
+    }
+}

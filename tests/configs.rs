@@ -1,0 +1,59 @@
+//! Each scenario of `configs/` runs, and its `expect` holds. A new case is a new file.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+use schuler::studies::{Context, Scenario, Silent, run, scenario::Study};
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Folder of recorded logs, if this machine has them.
+fn data() -> Option<PathBuf> {
+    let named = std::env::var_os("SCHULER_DATA").map(PathBuf::from);
+    named.into_iter().chain([root().join("../shared/data")]).find(|path| path.is_dir())
+}
+
+#[test]
+fn every_config_runs_and_its_expect_holds() {
+    let mut files: Vec<PathBuf> = fs::read_dir(root().join("configs"))
+        .expect("configs")
+        .map(|entry| entry.expect("an entry").path())
+        .collect();
+    files.sort();
+    let data = data();
+    let mut failures = String::new();
+    for file in files.iter().filter(|file| file.extension().is_some_and(|e| e == "yaml")) {
+        let name = file.strip_prefix(root()).unwrap_or(file).display();
+        let scenario = match Scenario::from_file(file, &[]) {
+            Ok(scenario) => scenario,
+            Err(error) => {
+                failures += &format!("{error}\n");
+                continue;
+            }
+        };
+        if scenario.expect.is_empty() {
+            failures += &format!("{name} expects nothing\n");
+        }
+        let beside = match &scenario.study {
+            Study::Navigate(navigate) => file.with_file_name(&navigate.log.file).is_file(),
+            _ => true,
+        };
+        if !beside && data.is_none() {
+            println!("skipped {name}: set SCHULER_DATA to the folder of recorded logs");
+            continue;
+        }
+        match run(&scenario, &Context { data: data.clone(), progress: &Silent }) {
+            Err(error) => failures += &format!("{name}: {error}\n"),
+            Ok(record) => {
+                for verdict in record.verdicts.iter().filter(|v| !v.holds) {
+                    failures += &format!("{name}: {verdict:?}\n");
+                }
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{failures}");
+}

@@ -1,0 +1,5 @@
+//! Tests of the program as users meet it.
+
+mod cli;
+mod configs;
+mod schema;
