@@ -10,8 +10,8 @@ use schuler_imu::{Imu, Instrument, Sample, Stream};
 
 use crate::{
     Context, Error, Scenario,
-    record::{Cell, Record, Table, columns},
     log::Content,
+    record::{Cell, Record, Table, columns},
     scenario::{ImuStudy, Motion},
 };
 use profile::Profile;

@@ -11,9 +11,11 @@
 //! is given.
 
 use schuler_imu::{
-    Component, Input, Instrument, Spec, Truth,
+    Component, Evolution, Input, Instrument, Spec, Truth,
     process::{Polynomial, Step},
 };
+
+use std::f64::consts::SQRT_2;
 
 use super::normal::{Z99, largest_of};
 
@@ -53,6 +55,8 @@ enum Kind {
 /// A process with states: their covariance, and per axis what joins them with the sum.
 struct Wandering {
     step: Step,
+    /// Expected state.
+    x: [f64; 2],
     p: [[f64; 2]; 2],
     sums: [Sum; 3],
 }
@@ -83,7 +87,8 @@ struct Axis {
 impl Theory {
     /// Before the first sample.
     pub fn new(spec: &Spec, dt: f64) -> Self {
-        let coefficients = spec.components().map(|c| (c, Kind::new(&c, dt))).collect();
+        let coefficients =
+            spec.components().flat_map(|c| Kind::parts(&c, dt).map(move |kind| (c, kind))).collect();
         Theory {
             dt,
             calibration: spec.calibration_temperature,
@@ -106,7 +111,11 @@ impl Theory {
                 // The interval mean of a first-degree polynomial is its value in the middle.
                 Kind::Known(polynomial) => (0..3).for_each(|j| mu[i][j] += g[j] * polynomial.at(middle)),
                 Kind::White(variance) => (0..3).for_each(|j| white[i][j] += g[j] * g[j] * *variance),
-                Kind::Wandering(w) => carry(&w.step, &mut w.p, &mut w.sums, g),
+                Kind::Wandering(w) => {
+                    carry(&w.step, &mut w.p, &mut w.sums, g);
+                    let expected = w.expected();
+                    (0..3).for_each(|j| mu[i][j] += g[j] * expected);
+                }
             }
         }
         for i in 0..2 {
@@ -131,7 +140,7 @@ impl Theory {
             }
         }
         let mean = a.mu / n;
-        let mean_sd = (a.white + variance).sqrt() / n;
+        let mean_sd = (a.white + variance).max(0.0).sqrt() / n;
         let known = (a.mu2 - a.mu * mean).max(0.0);
         let wandering = (variances - variance / n).max(0.0);
         let squares = known + a.white * (1.0 - 1.0 / n) + wandering;
@@ -174,22 +183,40 @@ impl Axis {
 }
 
 impl Kind {
-    fn new(component: &Component, dt: f64) -> Self {
+    /// The independent parts of a coefficient.
+    fn parts(component: &Component, dt: f64) -> impl Iterator<Item = Kind> + use<> {
         let evolution = component.evolution();
-        if let Some(polynomial) = evolution.deterministic() {
-            return Kind::Known(polynomial);
-        }
-        let mut step = evolution.kind.step(&evolution.arguments, dt);
+        let known = evolution.deterministic();
+        let parts = if known.is_some() { 1 } else { evolution.kind.parts(&evolution.arguments) };
+        (0..parts).map(move |part| known.map_or_else(|| Kind::part(&evolution, part, dt), Kind::Known))
+    }
+
+    fn part(evolution: &Evolution, part: usize, dt: f64) -> Self {
+        let mut step = evolution.kind.step(&evolution.arguments, part, dt);
         step.mean = step.mean.map(|m| m * evolution.gain);
         step.noise[2] = step.noise[2].map(|m| m * evolution.gain);
         if step.mean == [0.0; 2] {
             return Kind::White(step.noise[2].iter().map(|n| n * n).sum());
         }
-        // The initial state is linear in its two normals.
-        let column = |normals| evolution.kind.initial(&evolution.arguments, normals);
-        let (a, b) = (column([1.0, 0.0]), column([0.0, 1.0]));
-        let p = [0, 1].map(|r| [0, 1].map(|c| a[r] * a[c] + b[r] * b[c]));
-        Kind::Wandering(Box::new(Wandering { step, p, sums: [Sum::default(); 3] }))
+        // Four points have the moments of two normals up to the third degree: exact for a start that is known,
+        // linear in them, or of random direction.
+        let starts = [[SQRT_2, 0.0], [-SQRT_2, 0.0], [0.0, SQRT_2], [0.0, -SQRT_2]]
+            .map(|normals| evolution.kind.initial(&evolution.arguments, part, normals));
+        let x = [0, 1].map(|r| starts.iter().map(|s| s[r]).sum::<f64>() / 4.0);
+        let moment =
+            |r: usize, c: usize| starts.iter().map(|s| (s[r] - x[r]) * (s[c] - x[c])).sum::<f64>() / 4.0;
+        let p = [0, 1].map(|r| [0, 1].map(|c| moment(r, c)));
+        Kind::Wandering(Box::new(Wandering { step, x, p, sums: [Sum::default(); 3] }))
+    }
+}
+
+impl Wandering {
+    /// Expected interval mean; the expected state goes on to the next.
+    fn expected(&mut self) -> f64 {
+        let Step { phi, mean, .. } = &self.step;
+        let [x1, x2] = self.x;
+        self.x = [0, 1].map(|r| phi[r][0] * x1 + phi[r][1] * x2);
+        mean[0] * x1 + mean[1] * x2
     }
 }
 
@@ -268,6 +295,19 @@ mod tests {
         let u = n as f64 * dt / tau;
         let e = expected(&[("gauss_markov", &[("sigma", 2.0.into()), ("tau", tau.into())])], n, dt);
         near((e.mean[2] / Z99).powi(2), 2.0 * 4.0 / (u * u) * (u - 1.0 + (-u).exp()));
+    }
+
+    /// A sinusoid of random phase has the variance A²/2 about nothing, one of known phase A cos(0) = A at once.
+    #[test]
+    fn a_sinusoid_over_whole_periods() {
+        let (n, dt) = (1000u64, 0.01);
+        let random = [("amplitude", 3.0.into()), ("frequency", 2.0.into())];
+        let e = expected(&[("sinusoid", &random)], n, dt);
+        // An interval mean is smaller than the value by sin(x)/x, x = pi f dt.
+        let x = std::f64::consts::PI * 2.0 * dt;
+        assert!((e.deviation[0] / (3.0 * x.sin() / x / SQRT_2) - 1.0).abs() < 1.0 / n as f64);
+        // Whole periods cancel in the mean; what is left is the root of rounding.
+        assert!(e.mean[0].abs() < 1e-12 && e.mean[2].abs() < 1e-5);
     }
 
     /// A turn-on bias moves the mean and not the deviation.
