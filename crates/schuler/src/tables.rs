@@ -1,7 +1,7 @@
 //! The tables of `schuler sources`, from the registries.
 
-use schuler_imu::{Instrument, PROCESSES, TERMS, process::ParameterUnit};
-use schuler_studies::units;
+use schuler_imu::{Instrument, PROCESSES, TERMS};
+use schuler_studies::scenario::process_example;
 
 /// Markdown tables of terms and processes.
 pub fn sources() -> String {
@@ -20,8 +20,8 @@ pub fn sources() -> String {
             term.name(),
             instruments.join(", "),
             term.labels().join(" "),
-            term.doc(),
-            term.formula(),
+            cell(term.doc()),
+            cell(term.formula()),
         );
     }
     text +=
@@ -29,24 +29,19 @@ pub fn sources() -> String {
     for process in PROCESSES {
         let forms: Vec<String> =
             process.forms().iter().map(|f| f.iter().map(|p| p.name).collect::<Vec<_>>().join(", ")).collect();
-        let example: Vec<String> = process.forms()[0]
-            .iter()
-            .map(|p| {
-                let unit = match p.unit {
-                    ParameterUnit::Coefficient(_) => p.unit_for(Instrument::Gyro.unit()),
-                    ParameterUnit::Own(unit) => unit,
-                };
-                format!("{}: {}", p.name, units::example(unit))
-            })
-            .collect();
         text += &format!(
-            "| {} | {} | `{{ {} }}` | {} | {} |\n",
+            "| {} | {} | `{}` | {} | {} |\n",
             process.name(),
             forms.join(" or "),
-            example.join(", "),
-            process.doc(),
-            process.formula(),
+            process_example(*process, Instrument::Gyro.unit()),
+            cell(process.doc()),
+            cell(process.formula()),
         );
     }
     text
+}
+
+/// Text for a cell: a bar would end it.
+fn cell(text: &str) -> String {
+    text.replace('|', "\\|")
 }

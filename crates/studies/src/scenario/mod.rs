@@ -21,6 +21,7 @@ mod valid;
 mod written;
 
 pub use schema::json_schema;
+pub use sources::process_example;
 pub use valid::{
     Align, Damping, Drift, Expect, Formats, Frame, Imu, ImuStudy, Initial, Mechanization, Motion, Navigate,
     Output, RateTable, Scenario, Start, Statistic, Study, Vertical,

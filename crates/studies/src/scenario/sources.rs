@@ -198,10 +198,24 @@ pub(super) fn parameter_names(kind: &dyn ProcessKind) -> String {
     kind.forms().iter().map(form).collect::<Vec<_>>().join(" or ")
 }
 
-/// `constant: { value: 0.01 deg/h }`.
-fn process_example(kind: &dyn ProcessKind, unit: Unit) -> String {
-    let parameters: Vec<String> =
-        kind.forms()[0].iter().map(|p| format!("{}: {}", p.name, units::example(p.unit_for(unit)))).collect();
+/// `{ constant: { value: 0.01 deg/h } }`, with the unit of a coefficient: taken as it stands (tested).
+pub fn process_example(kind: &dyn ProcessKind, unit: Unit) -> String {
+    let mut used: Vec<Unit> = Vec::new();
+    let mut parameters = Vec::new();
+    for parameter in kind.forms()[0] {
+        let unit = parameter.unit_for(unit);
+        let example = units::example(unit);
+        // Of several in one unit each is ten times the one before: a band has a lower and an upper end.
+        let before = used.iter().filter(|u| **u == unit).count() as i32;
+        let value = match (before, example.split_once(' ')) {
+            (1.., Some((number, symbol))) => {
+                format!("{} {symbol}", 10f64.powi(before) * number.parse().unwrap_or(1.0))
+            }
+            _ => example,
+        };
+        used.push(unit);
+        parameters.push(format!("{}: {value}", parameter.name));
+    }
     format!("{{ {}: {{ {} }} }}", kind.name(), parameters.join(", "))
 }
 

@@ -197,3 +197,18 @@ fn every_key_has_an_example() {
         assert!(example.contains(&format!("{key}:")), "example.yaml has no `{key}`");
     }
 }
+
+/// What a message shows for a process is taken, on every term of every instrument.
+#[test]
+fn examples_of_sources_work() {
+    use schuler_imu::{Instrument, PROCESSES, TERMS};
+    for instrument in Instrument::ALL {
+        for term in TERMS.iter().filter(|t| t.instruments().contains(&instrument)) {
+            for process in PROCESSES {
+                let example = super::process_example(*process, term.unit(instrument));
+                let setting = format!("imu.{instrument}=[{{ {}: {example} }}]", term.name());
+                load(DRIFT, &[&setting]).unwrap_or_else(|e| panic!("{setting}: {e}"));
+            }
+        }
+    }
+}
