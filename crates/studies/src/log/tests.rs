@@ -243,3 +243,24 @@ fn axes_must_be_a_proper_rotation() {
         assert_eq!(map.to_body(a).cross(map.to_body(b)), map.to_body(c));
     }
 }
+
+/// A log in SI with its time in the last column; it is not part of the repository. 10 001 rows, 100 Hz, 100 s.
+#[test]
+fn the_mems_vehicle_log_is_read_whole() {
+    let Some(data) = std::env::var_os("SCHULER_DATA") else {
+        eprintln!("skipped: SCHULER_DATA does not name the folder of the MEMS vehicle log");
+        return;
+    };
+    let mut spec = spec();
+    spec.file = "mems_vehicle_imu.csv.gz".into();
+    spec.columns = Columns {
+        time: Some(TimeColumn { column: name("t_s"), scale: 1.0 }),
+        gyro: ["dthx_rad", "dthy_rad", "dthz_rad"].map(name),
+        accel: ["dvx_mps", "dvy_mps", "dvz_mps"].map(name),
+    };
+    let file = find(&spec, Some(Path::new(&data)), Path::new("a.yaml")).unwrap();
+    let samples: Vec<LogSample> = LogReader::open(&spec, &file).unwrap().collect::<Result<_, _>>().unwrap();
+    assert_eq!((samples.len(), samples[0].t, samples[10_000].t), (10_001, 0.0, 100.0));
+    // Its first row, with right-front-up turned to forward-right-down.
+    assert_eq!(samples[0].increments.dv.as_array(), [-3.029662959e-03, -1.753637522e-03, -8.627579352e-02]);
+}

@@ -63,6 +63,12 @@ fn rows_come_as_often_as_asked() {
 }
 
 #[test]
+fn columns_may_go_by_number() {
+    let by_number = synthetic(&["log.columns={ time: 1, gyro: [2, 3, 4], accel: [5, 6, 7] }"]).unwrap();
+    assert_eq!(by_number.tables, synthetic(&[]).unwrap().tables);
+}
+
+#[test]
 fn a_log_that_moves_has_no_errors() {
     let record = synthetic(&["log.stationary=false"]).unwrap();
     assert!(record.tables.iter().all(|table| table.name != "errors"));
