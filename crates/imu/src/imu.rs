@@ -9,8 +9,7 @@ use crate::readout::{Chain, Status};
 use crate::sample::Sample;
 use crate::state::State;
 use crate::term::{Coefficients, MAX_COEFFICIENTS, Term};
-use crate::truth::Inputs;
-use crate::{Component, Instrument, Motion, Source, Spec, Stream, TERMS, Truth};
+use crate::{Component, Input, Instrument, Motion, Source, Spec, Stream, TERMS, Truth};
 
 /// A term may stand on each instrument.
 const MAX_GROUPS: usize = 2 * TERMS.len();
@@ -28,12 +27,14 @@ pub struct Imu {
     /// Those of the gyroscopes, then those of the accelerometers.
     groups: [Option<Group>; MAX_GROUPS],
     ranges: [Range<usize>; 2],
+    /// Those of each instrument that are not all constant: they come last, when their sums are ready.
+    moving: [Range<usize>; 2],
     /// Interval means of the coefficients of each group.
     sums: [Coefficients; MAX_GROUPS],
     /// Place of the coefficient that each moving part adds to: group times [`MAX_COEFFICIENTS`] plus
     /// number of the coefficient.
     targets: Targets,
-    inputs: Inputs,
+    input: Input,
     chains: Option<[Chain; 2]>,
     /// Readout's part of the error of the last sample.
     readout_errors: [[f64; 3]; 2],
@@ -75,13 +76,14 @@ impl Imu {
             state,
             groups: [None; MAX_GROUPS],
             ranges: [0..0, 0..0],
+            moving: [0..0, 0..0],
             sums: [Coefficients::default(); MAX_GROUPS],
             targets: Targets {
                 white: ([0; MAX_WHITE], 0),
                 first: ([0; MAX_FIRST], 0),
                 second: ([0; MAX_SECOND], 0),
             },
-            inputs: Inputs::NONE,
+            input: Input::NONE,
             chains: spec.readout.map(|r| [Chain::new(r.gyro), Chain::new(r.accel)]),
             readout_errors: [[0.0; 3]; 2],
             dt: 0.0,
@@ -103,8 +105,25 @@ impl Imu {
     /// Any `dt` above zero will do, and it may change from step to step; with another `dt` nothing
     /// happens and the sample is empty.
     pub fn step(&mut self, dt: f64, truth: &Truth) -> Sample {
+        let mut sample = Sample::default();
+        self.step_into(dt, truth, &mut sample);
+        sample
+    }
+
+    /// One sample of `samples` for each of `truths`, all over intervals of `dt` seconds; the shorter
+    /// slice decides how many.
+    pub fn steps(&mut self, dt: f64, truths: &[Truth], samples: &mut [Sample]) {
+        for (truth, sample) in truths.iter().zip(samples) {
+            self.step_into(dt, truth, sample);
+        }
+    }
+
+    /// The next sample, written in place: copies of it would cost as much as its random numbers.
+    #[inline]
+    fn step_into(&mut self, dt: f64, truth: &Truth, sample: &mut Sample) {
         if !(dt > 0.0 && dt.is_finite()) {
-            return Sample { dt, ..Sample::default() };
+            *sample = Sample { dt, ..Sample::default() };
+            return;
         }
         if dt != self.dt {
             self.bank.discretise(&self.spec, dt);
@@ -112,20 +131,23 @@ impl Imu {
             self.dt = dt;
         }
         self.bank.advance(&mut self.state.bank);
-        let calibration = self.spec.calibration_temperature;
-        self.inputs.see(truth, dt, calibration);
+        self.input.see(truth, dt, self.spec.calibration_temperature);
         self.stepped = true;
-        let [omega_error, f_error] = self.errors();
+        self.sum();
+        let omega_error = self.error(Instrument::Gyro);
+        let f_error = self.error(Instrument::Accel);
         if self.chains.is_some() {
-            return self.read_out(dt, [omega_error, f_error]);
+            *sample = self.read_out(dt, [omega_error, f_error]);
+            return;
         }
         let add = |increment: [f64; 3], error: [f64; 3]| [0, 1, 2].map(|i| increment[i] + error[i] * dt);
         let scale = |mean: [f64; 3], error: [f64; 3]| [0, 1, 2].map(|i| (mean[i] + error[i]) * dt);
-        let (dtheta, dv) = match truth.motion {
+        (sample.dt, sample.omega_error, sample.f_error) = (dt, omega_error, f_error);
+        (sample.dtheta, sample.dv) = match truth.motion {
             Motion::Rates { omega, f } => (scale(omega, omega_error), scale(f, f_error)),
             Motion::Increments { dtheta, dv } => (add(dtheta, omega_error), add(dv, f_error)),
         };
-        Sample { dt, dtheta, dv, omega_error, f_error, ..Sample::default() }
+        (sample.gyro, sample.accel) = (Status::default(), Status::default());
     }
 
     /// The sample that the readout makes of the input and the sources' errors.
@@ -134,7 +156,7 @@ impl Imu {
         let mut total = errors;
         for (which, chain) in self.chains.iter().flatten().enumerate() {
             let instrument = Instrument::ALL[which];
-            let (u, e) = (self.inputs.of(instrument).u, errors[which]);
+            let (u, e) = (self.input.of(instrument).u, errors[which]);
             let normals = self.bank.readout_normals(&self.state.bank, instrument);
             let state = &mut self.state.readout[which];
             out[which] = chain.step(state, dt, [0, 1, 2].map(|i| u[i] + e[i]), normals);
@@ -143,14 +165,6 @@ impl Imu {
         }
         let [(dtheta, gyro), (dv, accel)] = out;
         Sample { dt, dtheta, dv, omega_error: total[0], f_error: total[1], gyro, accel }
-    }
-
-    /// One sample of `samples` for each of `truths`, all over intervals of `dt` seconds; the shorter
-    /// slice decides how many.
-    pub fn steps(&mut self, dt: f64, truths: &[Truth], samples: &mut [Sample]) {
-        for (truth, sample) in truths.iter().zip(samples) {
-            *sample = self.step(dt, truth);
-        }
     }
 
     /// Everything that changes from step to step.
@@ -182,7 +196,7 @@ impl Imu {
     pub fn ledger(&self) -> impl Iterator<Item = (Component, [f64; 3])> {
         self.bank.places(&self.spec).filter_map(|(c, place)| {
             let mean: f64 = self.bank.means.at(place).iter().sum();
-            let regressor = c.term().regressor(self.inputs.of(c.instrument()));
+            let regressor = c.term().regressor(&self.input.of(c.instrument()));
             self.stepped.then(|| (c, regressor.columns()[c.coefficient()].map(|g| g * mean)))
         })
     }
@@ -199,13 +213,19 @@ impl Imu {
         for targets in [&mut self.targets.white.1, &mut self.targets.first.1, &mut self.targets.second.1] {
             *targets = 0;
         }
+        let constant = |s: &Source| s.components().all(|c| c.evolution().is_constant());
         for instrument in Instrument::ALL {
-            let of = |c: &&Source| c.instrument() == instrument;
-            let start = self.groups.iter().flatten().count();
-            for source in self.spec.sources().filter(of) {
-                group_of(&mut self.groups, instrument, source.term());
+            let of = || self.spec.sources().filter(|s| s.instrument() == instrument);
+            let moves = |s: &Source| of().any(|o| o.term() == s.term() && !constant(o));
+            let mut bounds = [self.groups.iter().flatten().count(); 3];
+            for (bound, moving) in bounds[1..].iter_mut().zip([false, true]) {
+                for source in of().filter(|s| moves(s) == moving) {
+                    group_of(&mut self.groups, instrument, source.term());
+                }
+                *bound = self.groups.iter().flatten().count();
             }
-            self.ranges[instrument as usize] = start..self.groups.iter().flatten().count();
+            self.ranges[instrument as usize] = bounds[0]..bounds[2];
+            self.moving[instrument as usize] = bounds[1]..bounds[2];
         }
         for (c, place) in self.bank.places(&self.spec) {
             let group = group_of(&mut self.groups, c.instrument(), c.term());
@@ -224,29 +244,37 @@ impl Imu {
             list[place.first..place.first + place.count].fill(target);
             *len = (*len).max(place.first + place.count);
         }
+        for (sum, group) in self.sums.iter_mut().zip(self.groups.iter().flatten()) {
+            *sum = group.base;
+        }
     }
 
-    /// Output error of each instrument.
-    fn errors(&mut self) -> [[f64; 3]; 2] {
-        for (sum, group) in self.sums.iter_mut().zip(self.groups.iter().map_while(Option::as_ref)) {
-            *sum = group.base;
+    /// Sums the interval means of the coefficients over their sources.
+    fn sum(&mut self) {
+        for range in &self.moving {
+            for (sum, group) in
+                self.sums[range.clone()].iter_mut().zip(self.groups[range.clone()].iter().flatten())
+            {
+                *sum = group.base;
+            }
         }
         let flat = self.sums.as_flattened_mut();
         let (t, means) = (&self.targets, &self.bank.means);
         add_to(flat, &t.white.0[..t.white.1], &means.white);
         add_to(flat, &t.first.0[..t.first.1], &means.first);
         add_to(flat, &t.second.0[..t.second.1], &means.second);
-        let mut errors = [[0.0; 3]; 2];
-        for (errors, instrument) in errors.iter_mut().zip(Instrument::ALL) {
-            let (range, input) = (self.ranges[instrument as usize].clone(), self.inputs.of(instrument));
-            let [mut x, mut y, mut z] = [0.0; 3];
-            for (sum, group) in self.sums[range.clone()].iter().zip(self.groups[range].iter().flatten()) {
-                let e = group.term.output(input, sum);
-                (x, y, z) = (x + e[0], y + e[1], z + e[2]);
-            }
-            *errors = [x, y, z];
+    }
+
+    /// Output error of an instrument.
+    #[inline]
+    fn error(&mut self, instrument: Instrument) -> [f64; 3] {
+        self.input.turn_to(instrument);
+        let range = self.ranges[instrument as usize].clone();
+        let mut error = [0.0; 3];
+        for (sum, group) in self.sums[range.clone()].iter().zip(self.groups[range].iter().flatten()) {
+            group.term.add_output(&self.input, sum, &mut error);
         }
-        errors
+        error
     }
 }
 

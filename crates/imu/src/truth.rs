@@ -100,7 +100,7 @@ pub struct Input {
 }
 
 impl Input {
-    const NONE: Input = Input {
+    pub(crate) const NONE: Input = Input {
         u: [0.0; 3],
         omega: [0.0; 3],
         f: [0.0; 3],
@@ -112,45 +112,37 @@ impl Input {
 
     /// What `instrument`, calibrated at `calibration` (K), sees of `truth` over an interval of `dt` seconds.
     pub fn new(instrument: Instrument, truth: &Truth, dt: f64, calibration: f64) -> Input {
-        let mut both = Inputs::NONE;
-        both.see(truth, dt, calibration);
-        match instrument {
-            Instrument::Gyro => both.gyro,
-            Instrument::Accel => both.accel,
-        }
-    }
-}
-
-/// What both instruments see, written in place: this is on the hot path.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Inputs {
-    pub gyro: Input,
-    pub accel: Input,
-}
-
-impl Inputs {
-    pub const NONE: Inputs = Inputs { gyro: Input::NONE, accel: Input::NONE };
-
-    pub fn of(&self, instrument: Instrument) -> &Input {
-        match instrument {
-            Instrument::Gyro => &self.gyro,
-            Instrument::Accel => &self.accel,
-        }
+        let mut input = Input::NONE;
+        input.see(truth, dt, calibration);
+        input.turn_to(instrument);
+        input
     }
 
+    /// Takes in all that both instruments see, in place: this is on the hot path.
     #[inline]
-    pub fn see(&mut self, truth: &Truth, dt: f64, calibration: f64) {
-        let (omega, f) = match truth.motion {
+    pub(crate) fn see(&mut self, truth: &Truth, dt: f64, calibration: f64) {
+        (self.omega, self.f) = match truth.motion {
             Motion::Rates { omega, f } => (omega, f),
             Motion::Increments { dtheta, dv } => (dtheta.map(|d| d / dt), dv.map(|d| d / dt)),
         };
-        (self.gyro.u, self.accel.u) = (omega, f);
-        for input in [&mut self.gyro, &mut self.accel] {
-            (input.omega, input.f) = (omega, f);
-            input.omega_dot = truth.omega_dot;
-            input.delta_t = truth.temperature - calibration;
-            input.temperature_rate = truth.temperature_rate;
-            input.vibration = truth.vibration;
-        }
+        self.omega_dot = truth.omega_dot;
+        self.delta_t = truth.temperature - calibration;
+        self.temperature_rate = truth.temperature_rate;
+        self.vibration = truth.vibration;
+    }
+
+    /// Makes the own input that of `instrument`.
+    #[inline]
+    pub(crate) fn turn_to(&mut self, instrument: Instrument) {
+        self.u = match instrument {
+            Instrument::Gyro => self.omega,
+            Instrument::Accel => self.f,
+        };
+    }
+
+    /// The same for `instrument`.
+    pub(crate) fn of(mut self, instrument: Instrument) -> Input {
+        self.turn_to(instrument);
+        self
     }
 }

@@ -1,4 +1,4 @@
-use super::{Arguments, LinearModel, ProcessKind};
+use super::{Arguments, LinearModel, ProcessKind, Shape};
 
 /// The process of one coefficient: a kind and its numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,6 +37,11 @@ impl Evolution {
     /// Two-sided power spectral density at `f` Hz; `None` where there is none.
     pub fn spectrum(&self, f: f64) -> Option<f64> {
         self.kind.spectrum(&self.arguments, f).map(|s| self.gain * self.gain * s)
+    }
+
+    /// Whether the coefficient keeps its value, be it known or drawn.
+    pub fn is_constant(&self) -> bool {
+        self.kind.shape(&self.arguments) == Shape::Constant
     }
 
     /// The coefficient as a function of time, where nothing in it is random.

@@ -28,7 +28,7 @@ impl Term for Anisoelastic {
     fn labels(&self) -> &'static [&'static str] {
         PRODUCTS
     }
-    #[inline]
+    #[inline(always)]
     fn output(&self, x: &Input, c: &Coefficients) -> [f64; 3] {
         by_matrix(c, products(x.f))
     }

@@ -22,7 +22,7 @@ impl Term for Asymmetry {
     fn unit(&self, _: Instrument) -> Unit {
         Unit::ONE
     }
-    #[inline]
+    #[inline(always)]
     fn output(&self, x: &Input, c: &Coefficients) -> [f64; 3] {
         by_axis(c, x.u.map(f64::abs))
     }

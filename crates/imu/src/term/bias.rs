@@ -20,7 +20,7 @@ impl Term for Bias {
     fn unit(&self, instrument: Instrument) -> Unit {
         instrument.unit()
     }
-    #[inline]
+    #[inline(always)]
     fn output(&self, _: &Input, c: &Coefficients) -> [f64; 3] {
         [c[0], c[1], c[2]]
     }

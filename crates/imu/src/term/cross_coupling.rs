@@ -28,7 +28,7 @@ impl Term for CrossCoupling {
     fn labels(&self) -> &'static [&'static str] {
         &["x_io", "x_po", "y_io", "y_po", "z_io", "z_po"]
     }
-    #[inline]
+    #[inline(always)]
     fn output(&self, x: &Input, c: &Coefficients) -> [f64; 3] {
         let [fx, fy, fz] = x.f;
         [c[0] * fx * fz + c[1] * fy * fz, c[2] * fy * fx + c[3] * fz * fx, c[4] * fz * fy + c[5] * fx * fy]

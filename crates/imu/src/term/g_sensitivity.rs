@@ -26,7 +26,7 @@ impl Term for GSensitivity {
     fn labels(&self) -> &'static [&'static str] {
         MATRIX
     }
-    #[inline]
+    #[inline(always)]
     fn output(&self, x: &Input, c: &Coefficients) -> [f64; 3] {
         by_matrix(c, x.f)
     }

@@ -28,7 +28,7 @@ impl Term for GSquared {
     fn labels(&self) -> &'static [&'static str] {
         MATRIX
     }
-    #[inline]
+    #[inline(always)]
     fn output(&self, x: &Input, c: &Coefficients) -> [f64; 3] {
         by_matrix(c, x.f.map(|f| f * f))
     }

@@ -23,7 +23,7 @@ impl Term for LeverArm {
     fn unit(&self, _: Instrument) -> Unit {
         Unit::METRE
     }
-    #[inline]
+    #[inline(always)]
     fn output(&self, x: &Input, c: &Coefficients) -> [f64; 3] {
         let g = lever_gradient(x);
         let row = |i: usize| g[i][0] * c[0] + g[i][1] * c[1] + g[i][2] * c[2];

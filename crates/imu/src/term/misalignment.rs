@@ -25,7 +25,7 @@ impl Term for Misalignment {
     fn labels(&self) -> &'static [&'static str] {
         &["xy", "xz", "yx", "yz", "zx", "zy"]
     }
-    #[inline]
+    #[inline(always)]
     fn output(&self, x: &Input, c: &Coefficients) -> [f64; 3] {
         let [ux, uy, uz] = x.u;
         [c[0] * uy + c[1] * uz, c[2] * ux + c[3] * uz, c[4] * ux + c[5] * uy]

@@ -102,6 +102,13 @@ pub trait Term: Sync {
     /// Output error per axis (rad/s or m/s²) of coefficients `c` under `input`; linear in `c`.
     fn output(&self, input: &Input, c: &Coefficients) -> [f64; 3];
 
+    /// Adds the output error to `sum`. A result that travels through memory in pieces of different
+    /// widths costs more than the term itself; so the sum is kept where it is.
+    fn add_output(&self, input: &Input, c: &Coefficients, sum: &mut [f64; 3]) {
+        let [x, y, z] = self.output(input, c);
+        *sum = [sum[0] + x, sum[1] + y, sum[2] + z];
+    }
+
     /// Number of coefficients.
     fn len(&self) -> usize {
         self.labels().len()

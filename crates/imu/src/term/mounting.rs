@@ -25,7 +25,7 @@ impl Term for Mounting {
     fn labels(&self) -> &'static [&'static str] {
         MATRIX
     }
-    #[inline]
+    #[inline(always)]
     fn output(&self, x: &Input, c: &Coefficients) -> [f64; 3] {
         by_matrix(c, x.u)
     }

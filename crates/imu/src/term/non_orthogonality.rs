@@ -25,7 +25,7 @@ impl Term for NonOrthogonality {
     fn labels(&self) -> &'static [&'static str] {
         &["yx", "zx", "zy"]
     }
-    #[inline]
+    #[inline(always)]
     fn output(&self, x: &Input, c: &Coefficients) -> [f64; 3] {
         let [ux, uy, _] = x.u;
         [0.0, c[0] * ux, c[1] * ux + c[2] * uy]

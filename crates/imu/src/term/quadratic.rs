@@ -20,7 +20,7 @@ impl Term for Quadratic {
     fn unit(&self, instrument: Instrument) -> Unit {
         Unit::ONE.over(instrument.unit())
     }
-    #[inline]
+    #[inline(always)]
     fn output(&self, x: &Input, c: &Coefficients) -> [f64; 3] {
         by_axis(c, x.u.map(|u| u * u))
     }

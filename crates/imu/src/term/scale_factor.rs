@@ -20,7 +20,7 @@ impl Term for ScaleFactor {
     fn unit(&self, _: Instrument) -> Unit {
         Unit::ONE
     }
-    #[inline]
+    #[inline(always)]
     fn output(&self, x: &Input, c: &Coefficients) -> [f64; 3] {
         by_axis(c, x.u)
     }

@@ -28,7 +28,7 @@ impl Term for SizeEffect {
     fn labels(&self) -> &'static [&'static str] {
         MATRIX
     }
-    #[inline]
+    #[inline(always)]
     fn output(&self, x: &Input, c: &Coefficients) -> [f64; 3] {
         let g = lever_gradient(x);
         let row = |i: usize| g[i][0] * c[3 * i] + g[i][1] * c[3 * i + 1] + g[i][2] * c[3 * i + 2];

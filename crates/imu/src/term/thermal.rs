@@ -20,7 +20,7 @@ impl Term for Thermal {
     fn unit(&self, instrument: Instrument) -> Unit {
         instrument.unit().over(Unit::KELVIN)
     }
-    #[inline]
+    #[inline(always)]
     fn output(&self, x: &Input, c: &Coefficients) -> [f64; 3] {
         by_axis(c, [x.delta_t; 3])
     }

@@ -20,7 +20,7 @@ impl Term for ThermalRate {
     fn unit(&self, instrument: Instrument) -> Unit {
         instrument.unit().times(Unit::SECOND).over(Unit::KELVIN)
     }
-    #[inline]
+    #[inline(always)]
     fn output(&self, x: &Input, c: &Coefficients) -> [f64; 3] {
         by_axis(c, [x.temperature_rate; 3])
     }

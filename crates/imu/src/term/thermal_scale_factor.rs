@@ -20,7 +20,7 @@ impl Term for ThermalScaleFactor {
     fn unit(&self, _: Instrument) -> Unit {
         Unit::ONE.over(Unit::KELVIN)
     }
-    #[inline]
+    #[inline(always)]
     fn output(&self, x: &Input, c: &Coefficients) -> [f64; 3] {
         by_axis(c, x.u.map(|u| u * x.delta_t))
     }

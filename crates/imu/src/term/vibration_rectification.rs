@@ -20,7 +20,7 @@ impl Term for VibrationRectification {
     fn unit(&self, instrument: Instrument) -> Unit {
         instrument.unit().over(Unit::FORCE).over(Unit::FORCE)
     }
-    #[inline]
+    #[inline(always)]
     fn output(&self, x: &Input, c: &Coefficients) -> [f64; 3] {
         by_axis(c, x.vibration)
     }

@@ -25,7 +25,7 @@ impl Term for Vibropendulous {
     fn unit(&self, _: Instrument) -> Unit {
         Unit::ONE.over(Unit::FORCE)
     }
-    #[inline]
+    #[inline(always)]
     fn output(&self, x: &Input, c: &Coefficients) -> [f64; 3] {
         let [fx, fy, fz] = x.f;
         by_axis(c, [fx * fy, fy * fz, fz * fx])
