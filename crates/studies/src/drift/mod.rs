@@ -78,6 +78,7 @@ pub fn run(scenario: &Scenario, context: &Context) -> Result<Record, Error> {
 
     let mut record = Record::new(scenario, summary::table(&curves));
     record.tables.push(errors(&scene, &curves));
+    record.tables.push(summary::extremes(&curves));
     record.notes = summary::notes(&scene, &curves);
     if scenario.output.formats.png || scenario.output.formats.svg {
         record.figures = figures::figures(&scenario.title, &scene, &curves);

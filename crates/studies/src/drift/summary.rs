@@ -4,7 +4,7 @@ use schuler_strapdown::NavError;
 
 use super::scene::Scene;
 use super::{Curves, Way};
-use crate::record::Table;
+use crate::record::{Cell, Table, columns};
 
 /// Below these (m, m/s, rad) a response is the rounding of a day's run and no effect of the source.
 const ROUNDING: [f64; 3] = [1e-4, 1e-7, 1e-11];
@@ -68,6 +68,26 @@ pub fn table(curves: &[Curves]) -> Table {
     table
 }
 
+/// Final and largest value of each of the nine errors of each source, non-linear run (`extremes.csv`).
+pub fn extremes(curves: &[Curves]) -> Table {
+    let names: Vec<String> = ["final", "largest"]
+        .iter()
+        .flat_map(|which| columns::ERRORS[3..].iter().map(move |column| format!("{which}_{column}")))
+        .collect();
+    let names: Vec<&str> = std::iter::once("source").chain(names.iter().map(String::as_str)).collect();
+    let mut table = Table::new("extremes", &names, &["source"]);
+    for c in curves {
+        let rows: Vec<[f64; 9]> =
+            c.of(Way::Nonlinear).unwrap_or_default().iter().map(NavError::as_array).collect();
+        let last = rows.last().copied().unwrap_or_default();
+        let largest = (0..9).map(|k| rows.iter().map(|e| e[k].abs()).fold(0.0, f64::max));
+        let mut row = vec![c.case.name.as_str().into()];
+        row.extend(last.into_iter().chain(largest).map(Cell::from));
+        table.push(&row);
+    }
+    table
+}
+
 /// What a reader of the table must know.
 pub fn notes(scene: &Scene, curves: &[Curves]) -> Vec<String> {
     let mut notes = Vec::new();
@@ -82,23 +102,23 @@ pub fn notes(scene: &Scene, curves: &[Curves]) -> Vec<String> {
             worst = worst.max(rest.norm());
         }
         notes.push(format!(
-            "All together differ from the sum of each alone by at most {worst:.3} m in position: what is left is of second order in the errors."
+            "All together differ from the sum of each alone by at most {worst:.3} m in position: what is left is of second order in the errors"
         ));
     }
     let silent = alone.iter().filter(|c| is_silent(c.of(Way::Nonlinear).unwrap_or_default())).count();
     if silent > 0 {
         notes.push(format!(
-            "{silent} sources do nothing at this attitude with this vertical channel: what their runs show is the rounding of the mechanization."
+            "{silent} sources do nothing at this attitude with this vertical channel: what their runs show is the rounding of the mechanization"
         ));
     }
     if curves.iter().any(|c| c.random) {
         notes.push(
-            "Random sources: one sample of this seed; `exact` and `single_axis` are standard deviations."
+            "Random sources: one sample of this seed; `exact` and `single_axis` are standard deviations"
                 .into(),
         );
     }
     if scene.vertical != schuler_strapdown::Vertical::Held {
-        notes.push("The closed form holds for a held vertical channel only and is left out here.".into());
+        notes.push("The closed form holds for a held vertical channel only and is left out here".into());
     }
     notes
 }

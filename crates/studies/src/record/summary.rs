@@ -69,7 +69,8 @@ impl Record {
         }
         for Verdict { what, expected, tolerance, found, holds } in &self.verdicts {
             let word = if *holds { "holds" } else { "FAILS" };
-            let [expected, tolerance, found] = [expected, tolerance, found].map(|x| number(*x));
+            let [expected, found] = [expected, found].map(|x| digits(*x, *tolerance));
+            let tolerance = number(*tolerance);
             let _ = writeln!(text, "expect {word}: {what} is {found}, expected {expected} ± {tolerance}");
         }
         text
@@ -109,9 +110,18 @@ impl Table {
     }
 }
 
+/// As many digits as it takes to see the tolerance.
+fn digits(x: f64, tolerance: f64) -> String {
+    let seen = (x.abs() / tolerance).log10().ceil();
+    significant(x, if seen.is_finite() { (seen as i32 + 2).clamp(5, 15) } else { 5 })
+}
+
 /// Five significant digits; `-` where there is no number.
 fn number(x: f64) -> String {
-    const DIGITS: i32 = 5;
+    significant(x, 5)
+}
+
+fn significant(x: f64, digits: i32) -> String {
     if !x.is_finite() {
         return "-".into();
     }
@@ -120,9 +130,9 @@ fn number(x: f64) -> String {
     }
     let exponent = x.abs().log10().floor() as i32;
     if (-3..7).contains(&exponent) {
-        let decimals = (DIGITS - 1 - exponent).max(0) as usize;
+        let decimals = (digits - 1 - exponent).max(0) as usize;
         format!("{x:.decimals$}")
     } else {
-        format!("{x:.*e}", DIGITS as usize - 1)
+        format!("{x:.*e}", digits as usize - 1)
     }
 }
