@@ -57,3 +57,14 @@ fn every_config_runs_and_its_expect_holds() {
     }
     assert!(failures.is_empty(), "{failures}");
 }
+
+/// The scenario that the README shows runs, and what it expects holds.
+#[test]
+fn the_readmes_scenario_runs() {
+    let readme = fs::read_to_string(root().join("README.md")).expect("README.md");
+    let text =
+        readme.split("```yaml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a yaml block");
+    let scenario = Scenario::load("README.md", text, &[]).unwrap_or_else(|error| panic!("{error}"));
+    let record = run(&scenario, &Context::silent()).unwrap_or_else(|error| panic!("{error}"));
+    assert!(!record.verdicts.is_empty() && record.holds(), "{:?}", record.verdicts);
+}
