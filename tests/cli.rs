@@ -169,7 +169,7 @@ fn commands_of_the_readme() {
     let help = text(&Place::new("readme").schuler(&["help"]).stdout);
     let commands = readme.lines().filter_map(|line| {
         let line = line.trim();
-        line.strip_prefix("schuler ").or_else(|| line.strip_prefix("cargo run --release -- "))
+        line.strip_prefix("cargo run --release -- ")
     });
     for command in commands {
         let word = command.split_whitespace().next().unwrap_or_default();
