@@ -9,7 +9,7 @@ use schuler_studies::figure::{Axis, Figure, Panel, Series};
 /// Moments of inertia, kg m²: a satellite of twelve units.
 const INERTIA: [f64; 3] = [0.20, 0.25, 0.12];
 /// Disturbance torque, N m.
-const DISTURBANCE: [f64; 3] = [2e-6, -1e-6, 1.5e-6];
+const DISTURBANCE: [f64; 3] = [2e-8, -1e-8, 1.5e-8];
 /// Bandwidth of the controller, rad/s, and its damping.
 const BANDWIDTH: f64 = 0.3;
 const DAMPING: f64 = 0.8;

@@ -1,8 +1,10 @@
 //! Cost of a sample, beside drawing the same number of normals with `rand_distr`.
 //!
 //! `core_set` has bias, random walk, Gauss-Markov and white noise on six axes with scale factor and
-//! misalignment. The issue counts 18 draws for it; exact interval means need 30 (two for each state), and
-//! the baseline is drawn with both counts. Compare the columns of one run.
+//! misalignment: one draw for each of 18 processes, and one more for each of the 12 with a state, so that
+//! interval means are exact. `core_set_with_rand_distr` is the same equations written out for this one set
+//! and drawn by `StandardNormal` over `StdRng`; `rand_distr_normals` draws and does nothing else. Compare
+//! the lines of one run.
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
@@ -11,8 +13,8 @@ use rand::rngs::StdRng;
 use rand_distr::{Distribution, StandardNormal};
 use schuler_imu::process::Form;
 use schuler_imu::{
-    Imu, Instrument, PROCESSES, Process, ProcessKind, Sample, Source, Spec, Stream, TERMS, Truth, Value,
-    process_kind,
+    Imu, Instrument, Motion, PROCESSES, Process, ProcessKind, Sample, Source, Spec, Stream, TERMS, Truth,
+    Value, process_kind,
 };
 
 const SAMPLES: usize = 4096;
@@ -71,6 +73,46 @@ fn samples(bencher: Bencher<'_, '_>, spec: &Spec) {
 #[divan::bench]
 fn core_set_sample(bencher: Bencher<'_, '_>) {
     samples(bencher, &core_set());
+}
+
+/// The same set without any generality: what a careful user would write for it by hand.
+#[divan::bench]
+fn core_set_with_rand_distr(bencher: Bencher<'_, '_>) {
+    let mut rng = StdRng::seed_from_u64(1);
+    let dt: f64 = 0.01;
+    let walk: f64 = 1e-6 * dt.sqrt();
+    let (sigma, u) = (1e-4, dt / 100.0);
+    let phi = f64::exp(-u);
+    let state = sigma * (1.0 - phi * phi).sqrt();
+    let white = 1e-4 / dt.sqrt();
+    let (bias, scale, cross) = ([1e-3; 6], [1e-4; 6], [[1e-4; 3]; 6]);
+    let (mut b, mut m) = ([0.0; 6], [0.0; 6]);
+    let truth = [Truth::rates([0.1, 0.2, 0.3], [1.0, 2.0, 9.8]); SAMPLES];
+    let mut out = [Sample::default(); SAMPLES];
+    bencher.counter(ItemsCount::new(SAMPLES)).bench_local(|| {
+        for (truth, sample) in black_box(&truth).iter().zip(&mut out) {
+            let Motion::Rates { omega, f } = truth.motion else { continue };
+            let mut error = [0.0; 6];
+            for i in 0..6 {
+                let mut draw = || -> f64 { StandardNormal.sample(&mut rng) };
+                let input = if i < 3 { &omega } else { &f };
+                let (w1, w2, w3, w4, w5) = (draw(), draw(), draw(), draw(), draw());
+                let walked = b[i] + walk * (0.5 * w1 + w2 * 0.288_675);
+                let correlated = (1.0 - 0.5 * u) * m[i] + state * (0.5 * w3 + 0.288_675 * w4);
+                b[i] += walk * w1;
+                m[i] = phi * m[i] + state * w3;
+                let linear: f64 = (0..3).map(|j| cross[i][j] * input[j]).sum();
+                error[i] = bias[i] + walked + correlated + white * w5 + scale[i] * input[i % 3] + linear;
+            }
+            sample.dt = dt;
+            (0..3).for_each(|i| {
+                (sample.omega_error[i], sample.f_error[i]) = (error[i], error[i + 3]);
+                sample.dtheta[i] = (omega[i] + error[i]) * dt;
+                sample.dv[i] = (f[i] + error[i + 3]) * dt;
+            });
+        }
+        black_box(&out);
+    });
 }
 
 #[divan::bench]

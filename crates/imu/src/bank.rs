@@ -258,15 +258,16 @@ impl Bank {
         }
 
         let n = self.seconds;
-        for i in 0..n + self.frees {
-            let w = if i < n { [normals[i], normals[n + i], normals[2 * n + i]] } else { [0.0; 3] };
-            let (s, [x1, x2]) = (&self.second[i], state.second[i]);
+        for i in 0..n {
+            let (s, w) = (&self.second[i], [normals[i], normals[n + i], normals[2 * n + i]]);
             let noise = |r: usize| s.noise[r][0] * w[0] + s.noise[r][1] * w[1] + s.noise[r][2] * w[2];
-            self.means.second[i] = s.mean[0] * x1 + s.mean[1] * x2 + noise(2);
-            state.second[i] = [
-                s.phi[0][0] * x1 + s.phi[0][1] * x2 + noise(0),
-                s.phi[1][0] * x1 + s.phi[1][1] * x2 + noise(1),
-            ];
+            let mean = s.coast(&mut state.second[i]);
+            self.means.second[i] = mean + noise(2);
+            state.second[i][0] += noise(0);
+            state.second[i][1] += noise(1);
+        }
+        for i in n..n + self.frees {
+            self.means.second[i] = self.second[i].coast(&mut state.second[i]);
         }
     }
 }

@@ -15,3 +15,4 @@ mod streams;
 mod temperature;
 mod terms;
 mod unit;
+mod value_stability;

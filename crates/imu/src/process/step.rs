@@ -27,6 +27,14 @@ impl Step {
             noise: [[n11, 0.0, 0.0], [0.0; 3], [n31, 0.0, n33]],
         }
     }
+
+    /// Moves the states `x` without noise and returns the interval mean.
+    #[inline]
+    pub(crate) fn coast(&self, x: &mut [f64; 2]) -> f64 {
+        let ([x1, x2], phi) = (*x, &self.phi);
+        *x = [phi[0][0] * x1 + phi[0][1] * x2, phi[1][0] * x1 + phi[1][1] * x2];
+        self.mean[0] * x1 + self.mean[1] * x2
+    }
 }
 
 /// What one step of a process needs: decides how an injector keeps it.
