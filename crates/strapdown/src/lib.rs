@@ -8,16 +8,20 @@ pub mod align {
     pub use triad::{TriadError, triad};
 }
 mod anchor;
+mod coning;
 mod error_dynamics;
 mod increments;
 mod kernel;
 mod local_level;
+mod mechanization;
 mod pva;
 pub mod static_base;
 mod vertical;
 
+pub use coning::{BodyMotion, Coning, Samples};
 pub use error_dynamics::{ErrorDynamics, System};
 pub use increments::Increments;
 pub use local_level::LocalLevel;
+pub use mechanization::Mechanization;
 pub use pva::{NavError, Pva};
 pub use vertical::{BaroLoop, Vertical};

@@ -5,7 +5,7 @@ use schuler_frames::{Geodetic, Gravity, Real, T, Vec3};
 
 use crate::anchor::Anchor;
 use crate::kernel::{Quaternion, small_turn, turn};
-use crate::{Increments, Pva, Vertical};
+use crate::{BodyMotion, Increments, Mechanization, Pva, Vertical};
 
 /// Age of the anchor at which it is moved along, s.
 const ANCHOR_AGE: f64 = 0.5;
@@ -52,7 +52,7 @@ impl LocalLevel {
             gravity,
         };
         // A step of no duration fills in rates and accelerations of the start.
-        nav.advance(&Increments { dtheta: Vec3::ZERO, dv: Vec3::ZERO }, 0.0);
+        nav.advance_kernel(&BodyMotion { sigma: Vec3::ZERO, dv: Vec3::ZERO }, 0.0);
         nav
     }
 
@@ -70,27 +70,38 @@ impl LocalLevel {
         }
     }
 
-    /// One step over the interval `dt` (s) that `increments` cover.
+    /// [`Mechanization::step`], to be had without the trait.
     #[inline]
     pub fn step(&mut self, increments: &Increments, dt: f64) {
+        self.advance(&BodyMotion::of(increments), dt);
+    }
+}
+
+impl Mechanization for LocalLevel {
+    #[inline]
+    fn advance(&mut self, motion: &BodyMotion, dt: f64) {
         self.age += dt;
         if self.age > ANCHOR_AGE {
             self.anchor.move_by(self.way, self.gravity);
             self.way = [0.0; 3];
             self.age = dt;
         }
-        self.advance(increments, dt);
+        self.advance_kernel(motion, dt);
+    }
+
+    fn pva(&self) -> Pva {
+        LocalLevel::pva(self)
     }
 }
 
 impl<S: Real> LocalLevel<S> {
     #[inline(always)]
-    fn advance(&mut self, increments: &Increments<S>, dt: f64) {
+    fn advance_kernel(&mut self, motion: &BodyMotion<S>, dt: f64) {
         let half = 0.5 * dt;
         let v = self.v_t;
         let zero = v[0].lift(0.0);
         let held = self.vertical == Vertical::Held;
-        let dv_f = self.q_tb.rot::<T, _>().as_dcm() * increments.dv_at_start();
+        let dv_f = self.q_tb.rot::<T, _>().as_dcm() * motion.dv;
 
         // Specific force, turned by half the turn of t. What moves slowly is taken from the last step here:
         // it differs by the square of the step only, and nothing waits for it.
@@ -131,7 +142,7 @@ impl<S: Real> LocalLevel<S> {
         }
 
         // Attitude: t turns on the left, b on the right.
-        self.q_tb.turn(small_turn(-omega_it.scaled(dt)), turn(increments.dtheta));
+        self.q_tb.turn(small_turn(-omega_it.scaled(dt)), turn(motion.sigma));
     }
 }
 
