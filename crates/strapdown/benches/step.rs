@@ -7,7 +7,7 @@ mod plain;
 
 use divan::{Bencher, black_box};
 use schuler_frames::Gravity;
-use schuler_strapdown::{LocalLevel, Vertical};
+use schuler_strapdown::{EarthFixed, Inertial, LocalLevel, Vertical};
 
 fn main() {
     divan::main();
@@ -18,6 +18,30 @@ fn local_level(bencher: Bencher, gravity: Gravity) {
     let log: Vec<_> = flight::log().collect();
     bencher.counter(divan::counter::ItemsCount::new(flight::STEPS)).bench_local(|| {
         let mut nav = LocalLevel::new(&flight::start(), gravity, Vertical::Free);
+        for increments in black_box(&log) {
+            nav.step(increments, flight::DT);
+        }
+        nav
+    });
+}
+
+#[divan::bench(args = [Gravity::Somigliana, Gravity::Normal])]
+fn earth_fixed(bencher: Bencher, gravity: Gravity) {
+    let log: Vec<_> = flight::log().collect();
+    bencher.counter(divan::counter::ItemsCount::new(flight::STEPS)).bench_local(|| {
+        let mut nav = <EarthFixed>::new(&flight::start(), gravity, Vertical::Free);
+        for increments in black_box(&log) {
+            nav.step(increments, flight::DT);
+        }
+        nav
+    });
+}
+
+#[divan::bench(args = [Gravity::Somigliana, Gravity::Normal])]
+fn inertial(bencher: Bencher, gravity: Gravity) {
+    let log: Vec<_> = flight::log().collect();
+    bencher.counter(divan::counter::ItemsCount::new(flight::STEPS)).bench_local(|| {
+        let mut nav = <Inertial>::new(&flight::start(), gravity, Vertical::Free);
         for increments in black_box(&log) {
             nav.step(increments, flight::DT);
         }

@@ -69,31 +69,68 @@ pub(crate) fn small_turn<F: Frame, S: Real>(sigma: Vec3<F, S>) -> [S; 4] {
 
 /// A unit quaternion that takes small turns on either side without accumulating rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Quaternion<S>([Sum<S>; 4]);
+pub(crate) struct Quaternion<S> {
+    parts: [Sum<S>; 4],
+    /// What holds |q| at 1: half of the first-order correction, from the step before, so that nothing waits for
+    /// it. (The whole one, so late, would swing for ever.)
+    pull: S,
+}
 
 impl<S: Real> Quaternion<S> {
     #[inline(always)]
     pub fn new(wxyz: [S; 4]) -> Self {
-        Quaternion(wxyz.map(Sum::new))
+        Quaternion { parts: wxyz.map(Sum::new), pull: wxyz[0].lift(0.0) }
     }
 
     #[inline(always)]
     pub fn rot<To: Frame, From: Frame>(&self) -> Rot<To, From, S> {
-        Rot::claim(self.0.map(|part| part.hi))
+        Rot::claim(self.parts.map(|part| part.hi))
     }
 
     /// `(1 + left) ⊗ q ⊗ (1 + right)`, where both turns are given less the identity. The change of q
     /// is formed by itself and added with its rounding kept; a first-order pull holds |q| at 1.
     #[inline(always)]
     pub fn turn(&mut self, left: [S; 4], right: [S; 4]) {
-        let q = [self.0[0].hi, self.0[1].hi, self.0[2].hi, self.0[3].hi];
+        let q = self.parts();
         let r = product(q, right);
         let l = product(left, [q[0] + r[0], q[1] + r[1], q[2] + r[2], q[3] + r[3]]);
-        let pull = -(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] - 1.0) * 0.5;
-        self.0[0].add(r[0] + l[0] + pull * q[0]);
-        self.0[1].add(r[1] + l[1] + pull * q[1]);
-        self.0[2].add(r[2] + l[2] + pull * q[2]);
-        self.0[3].add(r[3] + l[3] + pull * q[3]);
+        self.add(q, [r[0] + l[0], r[1] + l[1], r[2] + l[2], r[3] + l[3]]);
+    }
+
+    /// [`Quaternion::turn`] with a left turn by the constant angle `angle` (rad, below 0.003) about z.
+    #[inline(always)]
+    pub fn turn_about_z(&mut self, angle: f64, right: [S; 4]) {
+        let q = self.parts();
+        let r = product(q, right);
+        let [w, x, y, z] = [q[0] + r[0], q[1] + r[1], q[2] + r[2], q[3] + r[3]];
+        let square = 0.25 * angle * angle;
+        let (c, s) = ((square * (1.0 / 24.0) - 0.5) * square, (0.5 - square * (1.0 / 12.0)) * angle);
+        self.add(
+            q,
+            [r[0] + (w * c - z * s), r[1] + (x * c - y * s), r[2] + (y * c + x * s), r[3] + (z * c + w * s)],
+        );
+    }
+
+    /// [`Quaternion::turn`] without a left turn.
+    #[inline(always)]
+    pub fn turn_right(&mut self, right: [S; 4]) {
+        let q = self.parts();
+        self.add(q, product(q, right));
+    }
+
+    #[inline(always)]
+    fn parts(&self) -> [S; 4] {
+        [self.parts[0].hi, self.parts[1].hi, self.parts[2].hi, self.parts[3].hi]
+    }
+
+    #[inline(always)]
+    fn add(&mut self, q: [S; 4], change: [S; 4]) {
+        let pull = self.pull;
+        self.parts[0].add(change[0] + pull * q[0]);
+        self.parts[1].add(change[1] + pull * q[1]);
+        self.parts[2].add(change[2] + pull * q[2]);
+        self.parts[3].add(change[3] + pull * q[3]);
+        self.pull = (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] - 1.0) * -0.25;
     }
 }
 

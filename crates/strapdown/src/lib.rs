@@ -8,6 +8,7 @@ pub mod align {
     pub use triad::{TriadError, triad};
 }
 mod anchor;
+mod cartesian;
 mod coning;
 mod error_dynamics;
 mod increments;
@@ -15,9 +16,11 @@ mod kernel;
 mod local_level;
 mod mechanization;
 mod pva;
+mod series;
 pub mod static_base;
 mod vertical;
 
+pub use cartesian::{Cartesian, Centred, EarthFixed, Inertial};
 pub use coning::{BodyMotion, Coning, Samples};
 pub use error_dynamics::{ErrorDynamics, System};
 pub use increments::Increments;

@@ -110,7 +110,15 @@ impl<S: Real> LocalLevel<S> {
 
         // The Earth at the middle of the step.
         let dlat = self.way[0] + v[0] * self.anchor.per_r_m * half;
-        let dh = self.way[2] - v[2] * half;
+        let mut dh = if held { self.way[2] } else { self.way[2] - v[2] * half };
+        let mut pushed = zero;
+        if let Vertical::Damped(baro) = self.vertical {
+            let mid = baro.at_middle(self.anchor.h.hi + (dh - baro.height), self.baro_a, dt);
+            dh -= mid.back * 0.5;
+            self.way[2] -= mid.back;
+            self.baro_a = mid.baro_a;
+            pushed = mid.down;
+        }
         let earth = self.anchor.near(dlat, dh);
         let omega_ie = omega_ie_t(earth.sin_lat, earth.cos_lat);
         let tan_lat = earth.sin_lat * earth.sec_lat;
@@ -119,14 +127,8 @@ impl<S: Real> LocalLevel<S> {
         // Velocity.
         let coriolis = (omega_it + omega_ie.as_vec3()).cross(v_mid);
         let mut a_free = Vec3::new(earth.g_n, zero, earth.g_d) - coriolis;
-        match self.vertical {
-            Vertical::Free | Vertical::Held => {}
-            Vertical::Damped(baro) => {
-                let excess = self.anchor.h.hi + (dh - baro.height);
-                a_free += Vec3::new(zero, zero, excess * baro.k2 + self.baro_a);
-                self.baro_a += excess * (baro.k3 * dt);
-                self.way[2] -= excess * (baro.k1 * dt);
-            }
+        if let Vertical::Damped(_) = self.vertical {
+            a_free += Vec3::new(zero, zero, pushed);
         }
         let change = horizontal_if(held, dv_f + a_free.scaled(dt));
         let v_mid = v + change.scaled(0.5);

@@ -1,5 +1,7 @@
 //! What is done about the unstable vertical channel.
 
+use schuler_frames::Real;
+
 /// The vertical channel. Left alone it diverges by e every 570 s, so that a choice must be made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Vertical {
@@ -41,5 +43,27 @@ impl BaroLoop {
             k3: per_tau * per_tau * per_tau,
             height,
         }
+    }
+}
+
+/// What a loop does in one step, at the middle of it.
+pub(crate) struct Feedback<S> {
+    /// Change of height taken back, m.
+    pub back: S,
+    /// Acceleration fed back, down, m/s².
+    pub down: S,
+    /// The loop's vertical acceleration error at the end, up, m/s².
+    pub baro_a: S,
+}
+
+impl BaroLoop {
+    /// The feedback over `dt` (s) for an excess of height `d` (m) in the middle of the step as it would be without the
+    /// loop, and for the loop's own `baro_a` (m/s²) at the start: second order in the step.
+    #[inline(always)]
+    pub(crate) fn at_middle<S: Real>(&self, d: S, baro_a: S, dt: f64) -> Feedback<S> {
+        let half = 0.5 * dt;
+        let d = d - d * (self.k1 * half);
+        let middle = baro_a + d * (self.k3 * half);
+        Feedback { back: d * (self.k1 * dt), down: d * self.k2 + middle, baro_a: baro_a + d * (self.k3 * dt) }
     }
 }
