@@ -31,10 +31,10 @@ pub struct ErrorDynamics {
     pub vertical: Vertical,
 }
 
-const POSITION: usize = 0;
-const VELOCITY: usize = 3;
-const ATTITUDE: usize = 6;
-const D: usize = 2;
+pub(crate) const POSITION: usize = 0;
+pub(crate) const VELOCITY: usize = 3;
+pub(crate) const ATTITUDE: usize = 6;
+pub(crate) const D: usize = 2;
 
 impl ErrorDynamics {
     /// The system at a state `pva` under the specific force `f_b` (m/s², body axes).
@@ -107,12 +107,14 @@ impl ErrorDynamics {
             Vector3::zeros(),
             -dg_dh.as_nalgebra(),
         ]);
+        // A metre is a smaller angle the higher one is: what counts is how the height changes.
+        let sink = v_d + self.vertical.taken_back(pva);
         let metric = SMatrix::<f64, 3, 3>::new(
-            -v_d / r_m,
+            -sink / r_m,
             0.0,
             north, //
             east * tan,
-            -(tan * v_n + v_d) / r_n,
+            -(tan * v_n + sink) / r_n,
             east, //
             0.0,
             0.0,
@@ -135,13 +137,27 @@ impl ErrorDynamics {
         block(ATTITUDE, VELOCITY, d_rho_dv);
         block(ATTITUDE, ATTITUDE, -omega_it.as_nalgebra().cross_matrix());
 
-        let c_tb = SMatrix::<f64, 3, 3>::from_fn(|r, k| c_tb.as_rows()[r][k]);
+        let mut system = System::driven(f, c_tb);
+        system.constrain(self.vertical);
+        system
+    }
+}
+
+impl System {
+    /// The dynamics `f` with sensor errors entering by the attitude.
+    pub(crate) fn driven(f: SMatrix<f64, 9, 9>, c_tb: Dcm<T, B>) -> Self {
+        let c_tb = c_tb.as_nalgebra();
         let mut b_gyro = SMatrix::<f64, 9, 3>::zeros();
         b_gyro.fixed_view_mut::<3, 3>(ATTITUDE, 0).copy_from(&-c_tb);
         let mut b_accel = SMatrix::<f64, 9, 3>::zeros();
         b_accel.fixed_view_mut::<3, 3>(VELOCITY, 0).copy_from(&c_tb);
+        System { f, b_gyro, b_accel }
+    }
 
-        match self.vertical {
+    /// What is done about the vertical channel.
+    pub(crate) fn constrain(&mut self, vertical: Vertical) {
+        let System { f, b_accel, .. } = self;
+        match vertical {
             Vertical::Free => {}
             Vertical::Held => {
                 f.row_mut(POSITION + D).fill(0.0);
@@ -154,6 +170,5 @@ impl ErrorDynamics {
                 f[(VELOCITY + D, POSITION + D)] -= baro.k2;
             }
         }
-        System { f, b_gyro, b_accel }
     }
 }

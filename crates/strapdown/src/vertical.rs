@@ -2,6 +2,8 @@
 
 use schuler_frames::Real;
 
+use crate::Pva;
+
 /// The vertical channel. Left alone it diverges by e every 570 s, so that a choice must be made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Vertical {
@@ -11,6 +13,17 @@ pub enum Vertical {
     Held,
     /// A loop that feeds back the difference to a reference height.
     Damped(BaroLoop),
+}
+
+impl Vertical {
+    /// Rate at which height is taken back that the velocity of a navigator at `pva` alone would bring it, m/s.
+    pub(crate) fn taken_back(&self, pva: &Pva) -> f64 {
+        match self {
+            Vertical::Free => 0.0,
+            Vertical::Held => -pva.v_t[2],
+            Vertical::Damped(baro) => baro.k1 * (pva.position.h - baro.height),
+        }
+    }
 }
 
 /// Gains of a baro-inertial loop, with up positive and d = h - h_reference:
