@@ -123,3 +123,25 @@ impl<S: Real> Anchor<S> {
         }
     }
 }
+
+#[cfg(test)]
+impl Anchor<f64> {
+    /// The same place in other numbers.
+    pub fn lifted<S: Real>(&self, zero: S) -> Anchor<S> {
+        let lift = |x: f64| zero.lift(x);
+        Anchor {
+            lat: Sum::new(lift(self.lat.value())),
+            lon: Sum::new(lift(self.lon.value())),
+            h: Sum::new(lift(self.h.value())),
+            sin_lat: lift(self.sin_lat),
+            cos_lat: lift(self.cos_lat),
+            sec: self.sec.map(lift),
+            per_r_m: lift(self.per_r_m),
+            per_r_n: lift(self.per_r_n),
+            r_m_slope: self.r_m_slope.map(lift),
+            r_n_slope: self.r_n_slope.map(lift),
+            g_n: self.g_n.map(lift),
+            g_d: self.g_d.map(lift),
+        }
+    }
+}

@@ -154,6 +154,9 @@ fn horizontal_if<S: Real>(held: bool, v: Vec3<T, S>) -> Vec3<T, S> {
 }
 
 #[cfg(test)]
+mod jacobian;
+
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::NavError;
