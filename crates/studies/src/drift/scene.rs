@@ -3,9 +3,10 @@
 use schuler_frames::{B, Gravity, Rot, T, Vec3, earth::omega_ie_t};
 use schuler_imu::{Input, Instrument, Truth};
 use schuler_strapdown::static_base::Site;
-use schuler_strapdown::{BaroLoop, Pva, Vertical};
+use schuler_strapdown::{Pva, Vertical};
 
-use crate::scenario::{self, Drift};
+use crate::channel;
+use crate::scenario::Drift;
 
 /// A base at rest on the Earth with an IMU on it.
 pub struct Scene {
@@ -34,17 +35,7 @@ impl Scene {
         let gravity = drift.mechanization.gravity;
         let (s, c) = position.lat.sin_cos();
         let g_t = gravity.gravity_t(position);
-        let instability = -gravity.gradient_t(position).1[2];
-        let vertical = match drift.mechanization.vertical {
-            scenario::Vertical::Held => Vertical::Held,
-            scenario::Vertical::Free => Vertical::Free,
-            scenario::Vertical::Damped(d) if d.order == 2 => {
-                Vertical::Damped(BaroLoop::second_order(d.tau, instability, position.h))
-            }
-            scenario::Vertical::Damped(d) => {
-                Vertical::Damped(BaroLoop::third_order(d.tau, instability, position.h))
-            }
-        };
+        let vertical = channel::vertical(&drift.mechanization, position);
         let dt = 1.0 / drift.imu.rate;
         let steps = drift.samples;
         let stride = every.map_or(1, |every| (every / dt).round().max(1.0) as u64);

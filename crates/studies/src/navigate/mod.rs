@@ -6,12 +6,10 @@ mod report;
 #[cfg(test)]
 mod tests;
 
-use schuler_strapdown::{BaroLoop, Vertical};
-
 use crate::log::{LogReader, find};
 use crate::record::Record;
-use crate::scenario::{self, Navigate, Study};
-use crate::{Context, Diagnostic, Error, Scenario};
+use crate::scenario::{Navigate, Study};
+use crate::{Context, Diagnostic, Error, Scenario, channel};
 use pass::{Pass, Plan};
 
 /// Runs a navigate study: averages the log over the window, finds the attitude by TRIAD (specific force first) at
@@ -55,17 +53,7 @@ pub fn run(scenario: &Scenario, context: &Context) -> Result<Record, Error> {
 fn plan(navigate: &Navigate, every: Option<f64>) -> Plan {
     let (position, gravity) = (navigate.start.position, navigate.mechanization.gravity);
     let rate = navigate.log.rate;
-    let instability = -gravity.gradient_t(position).1[2];
-    let vertical = match navigate.mechanization.vertical {
-        scenario::Vertical::Held => Vertical::Held,
-        scenario::Vertical::Free => Vertical::Free,
-        scenario::Vertical::Damped(d) if d.order == 2 => {
-            Vertical::Damped(BaroLoop::second_order(d.tau, instability, position.h))
-        }
-        scenario::Vertical::Damped(d) => {
-            Vertical::Damped(BaroLoop::third_order(d.tau, instability, position.h))
-        }
-    };
+    let vertical = channel::vertical(&navigate.mechanization, position);
     let samples = |seconds: f64| (seconds * rate).round() as u64;
     let window = navigate.align.window.map(samples);
     Plan {
