@@ -1,0 +1,7 @@
+//! Laws and oracles of the crate.
+mod bad_input;
+mod confidence;
+mod estimators;
+mod pyramid;
+mod simulation;
+mod support;
