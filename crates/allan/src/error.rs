@@ -77,7 +77,23 @@ pub enum AllanError {
     /// Equivalent degrees of freedom that are not positive.
     #[error("{0} degrees of freedom: there must be more than none")]
     DegreesOfFreedom(f64),
-    /// The covariance of the estimates could not be factored.
-    #[error("the fit has no solution for these estimates ({0} points): use more averaging times")]
+    /// A fit was asked of an estimate it is not made for.
+    #[error("a fit needs overlapping Allan variances: their covariance is known")]
+    FitEstimator,
+    /// A curve with other averaging times or another length than the fitter was made for.
+    #[error("the curve has other averaging times or another length than the one this fitter was made for")]
+    FitLayout,
+    /// A variance that no noise has.
+    #[error(
+        "the variance at {tau} s is {variance}: a fit needs positive ones (is the log shorter than its quantization?)"
+    )]
+    FitVariance {
+        /// Averaging time (s).
+        tau: f64,
+        /// The variance there.
+        variance: f64,
+    },
+    /// No combination of terms has positive coefficients.
+    #[error("no combination of noise terms fits the {0} points of the curve")]
     Fit(usize),
 }

@@ -6,32 +6,27 @@ const FEWEST: usize = 30;
 /// The dominant noise at averaging factor `m`, from the lag-1 autocorrelation of the rate averaged over `m` samples;
 /// `None` where fewer than 30 averages are left.
 ///
-/// For noise with spectrum f^-2δ between -1/2 and 1/4 the lag-1 autocorrelation is r = δ/(1 - δ); averages are
-/// differenced until that holds, each difference worth 2 in the exponent (W. Riley, C. Greenhall, *Power law
-/// noise identification using the lag 1 autocorrelation*, EFTF 2004).
+/// The idea is that of W. Riley and C. Greenhall, *Power law noise identification using the lag 1 autocorrelation*,
+/// EFTF 2004, with the exact values for interval means in place of point samples. Differences of adjacent averages
+/// have the autocorrelation -2/3 (quantization), -1/2 (white), -0.217 (flicker: (9 ln 3 - 16 ln 2)/(8 ln 2)) and
+/// 1/4 (random walk); averages themselves -1/2 and 0 for the first two. The nearest value decides.
 #[must_use]
 pub fn identify(phase: &Phase, m: usize) -> Option<NoiseType> {
     let x: Vec<f64> = phase.samples().iter().step_by(m).copied().collect();
-    let mut y: Vec<f64> = x.windows(2).map(|w| w[1] - w[0]).collect();
-    let mut exponent = 0.0;
-    for differences in 0..3 {
-        if y.len() < FEWEST {
-            return None;
-        }
-        let r = lag_1(&y);
-        let delta = r / (1.0 + r);
-        if delta < 0.25 || differences == 2 {
-            exponent -= 2.0 * delta;
-            break;
-        }
-        exponent -= 2.0;
-        y = y.windows(2).map(|w| w[1] - w[0]).collect();
+    let averages: Vec<f64> = x.windows(2).map(|w| w[1] - w[0]).collect();
+    if averages.len() < FEWEST {
+        return None;
     }
-    Some(match exponent.round() {
-        a if a > 0.5 => NoiseType::Quantization,
-        a if a > -0.5 => NoiseType::White,
-        a if a > -1.5 => NoiseType::Flicker,
-        _ => NoiseType::RandomWalk,
+    let differences: Vec<f64> = averages.windows(2).map(|w| w[1] - w[0]).collect();
+    let r = lag_1(&differences);
+    Some(if r > 0.0165 {
+        NoiseType::RandomWalk
+    } else if r > -0.3585 {
+        NoiseType::Flicker
+    } else if lag_1(&averages) > -0.25 {
+        NoiseType::White
+    } else {
+        NoiseType::Quantization
     })
 }
 

@@ -2,6 +2,8 @@
 mod bad_input;
 mod confidence;
 mod estimators;
+mod fit;
 mod pyramid;
 mod simulation;
 mod support;
+mod terms;

@@ -8,6 +8,9 @@ const N: usize = 1024;
 const RUNS: usize = 1000;
 const TAU0: f64 = 0.1;
 
+/// Allan variance over tau.
+type Law<'a> = &'a dyn Fn(f64) -> f64;
+
 /// Estimates at m = 1, 8, 64 of each run.
 fn estimates(truth: Truth, estimator: Estimator) -> Vec<[f64; 3]> {
     let mut simulator = Simulator::new(truth, N, TAU0);
@@ -29,7 +32,7 @@ fn mean(runs: &[[f64; 3]], i: usize) -> f64 {
 #[test]
 fn simulated_logs_have_the_variances_and_the_scatter_of_theory() {
     let (q, n, b, k) = (0.3, 0.2, 0.5, 0.7);
-    let laws: [(Truth, NoiseType, &dyn Fn(f64) -> f64); 4] = [
+    let laws: [(Truth, NoiseType, Law); 4] = [
         (Truth { quantization: q, ..Truth::default() }, NoiseType::Quantization, &|t| 3.0 * (q / t).powi(2)),
         (Truth { white: n, ..Truth::default() }, NoiseType::White, &|t| n * n / t),
         (Truth { flicker: b, ..Truth::default() }, NoiseType::Flicker, &|_| 2.0 * LN_2 / PI * b * b),

@@ -121,24 +121,35 @@ impl Simulator {
 
 impl Truth {
     /// Covariance of the first differences of the rate at lag k: fourth difference of the generalised
-    /// autocovariance of phase, over tau0².
+    /// autocovariance of phase, over tau0². Term by term, because at long lags they cancel.
     fn covariance(&self, k: f64, tau0: f64) -> f64 {
-        let at = |j: f64| self.phase_covariance((k + j).abs(), tau0);
-        (6.0 * at(0.0) - 4.0 * (at(1.0) + at(-1.0)) + at(2.0) + at(-2.0)) / (tau0 * tau0)
-    }
-
-    fn phase_covariance(&self, lag: f64, tau0: f64) -> f64 {
-        let t = lag * tau0;
-        let mut r = if lag == 0.0 { self.quantization.powi(2) } else { 0.0 };
-        r -= self.white.powi(2) * t / 2.0;
-        if t > 0.0 {
-            // ln of the lag instead of the time: t² falls out of the differences, and digits stay.
-            r += self.flicker.powi(2) / TAU * t * t * lag.ln();
+        let fourth = |g: &dyn Fn(f64) -> f64| {
+            let at = |j: f64| g((k + j).abs());
+            6.0 * at(0.0) - 4.0 * (at(1.0) + at(-1.0)) + at(2.0) + at(-2.0)
+        };
+        let near = |g: &dyn Fn(f64) -> f64| if k > 2.0 { 0.0 } else { fourth(g) };
+        let mut sum = self.quantization.powi(2) / tau0.powi(2) * near(&|t| f64::from(t == 0.0));
+        sum -= self.white.powi(2) / (2.0 * tau0) * near(&|t| t);
+        sum += self.random_walk.powi(2) * tau0 / 12.0 * near(&|t| t.powi(3));
+        let square_log = |t: f64| if t > 0.0 { t * t * t.ln() } else { 0.0 };
+        sum += self.flicker.powi(2) / TAU
+            * if k > 100.0 {
+                // d4 = D4 + D6/6 + D8/80 of t² ln t.
+                -2.0 / k.powi(2) - 2.0 / k.powi(4) - 3.0 / k.powi(6)
+            } else {
+                fourth(&square_log)
+            };
+        if let Some((sigma, time)) = self.markov {
+            let x = tau0 / time;
+            // The linear part of the phase covariance has no fourth difference beyond lag 1.
+            let linear = near(&|t| t * x);
+            let tail = if k > 2.0 {
+                (-x * k).exp() * (2.0 * x.cosh() - 2.0).powi(2)
+            } else {
+                fourth(&|t| (-x * t).exp_m1())
+            };
+            sum -= (sigma / x).powi(2) * (linear + tail);
         }
-        r += self.random_walk.powi(2) * t.powi(3) / 12.0;
-        if let Some((sigma, tau)) = self.markov {
-            r -= (sigma * tau).powi(2) * (t / tau + (-t / tau).exp_m1());
-        }
-        r
+        sum
     }
 }
