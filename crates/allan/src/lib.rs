@@ -63,7 +63,7 @@ pub use interval::{quantile, variance_factors};
 pub use noise_id::identify;
 pub use phase::Phase;
 pub use pyramid::Pyramid;
-pub use sources::{Instrument, to_yaml};
+pub use sources::{to_sources, to_yaml, unit};
 pub use sun_eq3::{SunEq3, sun_eq3};
 pub use term::Term;
 pub use times::{STEP_TOLERANCE, sample_interval, split_at_gaps};

@@ -1,6 +1,8 @@
 use schuler_allan::{
-    Curve, Estimator, Fitter, Grid, Instrument, Phase, Point, Pyramid, Term, Verdict, fit, sun_eq3, to_yaml,
+    Curve, Estimator, Fitter, Grid, Phase, Point, Pyramid, Term, Verdict, fit, sun_eq3, to_yaml,
 };
+
+use schuler_imu::Instrument;
 
 use crate::support::cases::{
     Case, DEG_H, DEG_SQRT_H, SAMPLES, Score, TAU0, cases, false_terms, fits, scores, sun_negative,

@@ -1,5 +1,6 @@
 //! Laws and oracles of the crate.
 mod bad_input;
+mod closure;
 mod confidence;
 mod estimators;
 mod fit;
