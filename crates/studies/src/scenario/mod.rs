@@ -1,6 +1,6 @@
 //! The scenario as written and as valid.
 //!
-//! Text becomes a [`Document`] (places), overrides change it, serde reads the written form (keys and words),
+//! Text becomes a `Document` (places), overrides change it, serde reads the written form (keys and words),
 //! and checking it gives the valid form: SI, radians, every invariant. The only way in is [`Scenario::load`].
 
 mod check;
