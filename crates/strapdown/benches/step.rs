@@ -7,7 +7,7 @@ mod plain;
 
 use divan::{Bencher, black_box};
 use schuler_frames::Gravity;
-use schuler_strapdown::{EarthFixed, Inertial, LocalLevel, Vertical};
+use schuler_strapdown::{EarthFixed, Inertial, LocalLevel, Vertical, WanderAzimuth};
 
 fn main() {
     divan::main();
@@ -42,6 +42,18 @@ fn inertial(bencher: Bencher, gravity: Gravity) {
     let log: Vec<_> = flight::log().collect();
     bencher.counter(divan::counter::ItemsCount::new(flight::STEPS)).bench_local(|| {
         let mut nav = <Inertial>::new(&flight::start(), gravity, Vertical::Free);
+        for increments in black_box(&log) {
+            nav.step(increments, flight::DT);
+        }
+        nav
+    });
+}
+
+#[divan::bench(args = [Gravity::Somigliana, Gravity::Normal])]
+fn wander_azimuth(bencher: Bencher, gravity: Gravity) {
+    let log: Vec<_> = flight::log().collect();
+    bencher.counter(divan::counter::ItemsCount::new(flight::STEPS)).bench_local(|| {
+        let mut nav = WanderAzimuth::new(&flight::start(), gravity, Vertical::Free);
         for increments in black_box(&log) {
             nav.step(increments, flight::DT);
         }

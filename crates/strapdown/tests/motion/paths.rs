@@ -92,3 +92,23 @@ impl Trajectory for Eight {
         [(t * 0.1).cos() * 0.05, (t * 0.4).sin() * 0.02, yaw]
     }
 }
+
+/// Half an hour to the north pole and half an hour beyond, climbing, sinking and swinging.
+pub struct OverThePole;
+
+impl Trajectory for OverThePole {
+    fn place(&self, t: Jet) -> ([Jet; 3], Jet) {
+        let along = (t + -1800.0) * (240.0 / wgs84::A);
+        let aside = (t * 0.01).sin() * 1e-4;
+        let ((s, c), (sin_aside, cos_aside)) = (along.sin_cos(), aside.sin_cos());
+        ([s * cos_aside, sin_aside, c * cos_aside], (t * 0.005).sin() * 1000.0 + 7000.0)
+    }
+
+    fn stand(&self, t: Jet) -> [Jet; 3] {
+        [(t * 0.05).sin() * 0.5, (t * 0.03).cos() * 0.2, t * 0.01]
+    }
+
+    fn against(&self) -> Against {
+        Against::Earth
+    }
+}
