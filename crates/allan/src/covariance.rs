@@ -48,7 +48,8 @@ impl CovarianceTable {
                 for (lag, weight) in if sums { lags(mi, mj, count_i, count_j) } else { Vec::new() } {
                     let pairs_at_lag = (count_i as i64).min(count_j as i64 - lag) - 0.max(-lag);
                     let w = scale * weight * pairs_at_lag as f64;
-                    for (c, term) in c.iter_mut().zip(&terms) {
+                    // Sinusoids are not summed.
+                    for (c, term) in c.iter_mut().zip(&terms).filter(|(_, t)| summed(**t, Term::White)) {
                         *c = difference_covariance(*term, mi, mj, lag, layout.tau0);
                     }
                     let mut k = 0;

@@ -45,9 +45,12 @@ pub struct Fit {
     pub chi2: f64,
     /// Its degrees of freedom.
     pub freedom: usize,
-    /// Does the model miss the curve by more than chance would (0.1 %)? Then intervals are too narrow: the log holds
-    /// something that is none of these terms.
+    /// Does the model miss the curve by more than chance would (0.1 %)? Then the log holds something that is none of
+    /// these terms (motion, temperature, an outlier).
     pub misfit: bool,
+    /// Relative error of the Allan variance that the model has been allowed at every averaging time, because it
+    /// misses the curve; 0 where it does not. The intervals allow for it.
+    pub model_error: f64,
     /// Sample interval (s) and length (s) of the log.
     pub tau0: f64,
     /// Length of the log (s).
@@ -151,7 +154,8 @@ impl Fitter {
             parameters,
             chi2: selection.best.chi2,
             freedom: selection.freedom(),
-            misfit: selection.misfits(0.999)?,
+            misfit: selection.slack > 0.0 || selection.misfits(0.999)?,
+            model_error: selection.slack,
             tau0: curve.tau0,
             duration: n as f64 * curve.tau0,
         })

@@ -23,6 +23,8 @@ pub(crate) struct Selection {
     pub problem: Problem,
     pub best: SubsetFit,
     pub all: Vec<(f64, SubsetFit)>,
+    /// Relative error of the model that the fit allows for.
+    pub slack: f64,
 }
 
 fn price(term: Term, each: f64) -> f64 {
@@ -35,8 +37,8 @@ fn price(term: Term, each: f64) -> f64 {
 
 impl Selection {
     /// All subsets of `terms`.
-    pub fn of(curve: &Curve, terms: &[Term], table: CovarianceTable) -> Result<Self, AllanError> {
-        let problem = Problem::new(curve, terms, table);
+    pub fn of(curve: &Curve, terms: &[Term], table: CovarianceTable, slack: f64) -> Result<Self, AllanError> {
+        let problem = Problem::new(curve, terms, table, slack);
         let score = |fit: &SubsetFit, each: f64| {
             fit.deviance + fit.chosen.iter().map(|c| price(terms[*c], each)).sum::<f64>()
         };
@@ -54,7 +56,7 @@ impl Selection {
             fits.into_iter().map(|f| ((0.5 * (least - score(&f, PRICE_INTERVAL))).exp(), f)).collect();
         let whole: f64 = all.iter().map(|(w, _)| w).sum();
         let all = all.into_iter().map(|(w, f)| (w / whole, f)).collect();
-        Ok(Self { problem, best, all })
+        Ok(Self { problem, best, all, slack })
     }
 
     fn chosen_terms(&self) -> Vec<Term> {
@@ -76,32 +78,58 @@ impl Selection {
 /// Power laws first; a Markov process and a sinusoid only if those leave a misfit, and each only if it pays.
 pub(crate) fn select(octaves: &FitData, half_octaves: &FitData) -> Result<Selection, AllanError> {
     let laws = Term::POWER_LAWS.to_vec();
-    let plain = Selection::of(&octaves.curve, &laws, octaves.table.clone())?;
+    let plain = Selection::of(&octaves.curve, &laws, octaves.table.clone(), 0.0)?;
     if !plain.misfits(0.99)? {
         return Ok(plain);
     }
-    let data = half_octaves;
-    // By simple weights, which a misfit does not upset; each knows of the other.
+    let found = with_shapes(half_octaves, 0.0)?;
+    if !found.misfits(0.999)? {
+        // Nothing with a shape: the plain grid has the better known statistics.
+        let shaped = found.chosen_terms().iter().any(|t| t.shape().is_some());
+        return Ok(if shaped { found } else { plain });
+    }
+    // The log holds something else. Give the model the relative error that it needs, or the points with the smallest
+    // scatter, those at short times, would drive it alone.
+    let shaped = screened(&half_octaves.curve);
+    let mut slack = SLACKS[0];
+    for wider in SLACKS {
+        slack = wider;
+        if !half_octaves.selection(&shaped, slack)?.misfits(0.9)? {
+            break;
+        }
+    }
+    with_shapes(half_octaves, slack)
+}
+
+/// Relative errors of the variance that are tried for a model that misses.
+const SLACKS: [f64; 9] = [0.01, 0.02, 0.04, 0.08, 0.15, 0.25, 0.4, 0.6, 1.0];
+
+/// Markov process and sinusoid by simple weights, which a misfit does not upset; each knows of the other.
+fn screened(curve: &Curve) -> Vec<Term> {
     let mut shaped: Vec<Term> = Vec::new();
     for kind in [sinusoids, markovs, sinusoids] {
-        let grid = kind(&data.curve);
+        let grid = kind(curve);
         shaped.retain(|t| !same_kind(*t, grid[0]));
-        shaped.extend(screen(&data.curve, &shaped, &grid));
+        shaped.extend(screen(curve, &shaped, &grid));
     }
+    shaped
+}
+
+/// The best subset of power laws, a Markov process and a sinusoid.
+fn with_shapes(data: &FitData, slack: f64) -> Result<Selection, AllanError> {
+    let mut shaped = screened(&data.curve);
     loop {
-        let chosen = data.selection(&shaped)?.chosen_terms();
+        let chosen = data.selection(&shaped, slack)?.chosen_terms();
         // Twice, because the shapes depend on each other.
         for place in (0..shaped.len()).chain(0..shaped.len()) {
-            refine(data, &mut shaped, place, &chosen);
+            refine(data, slack, &mut shaped, place, &chosen);
         }
-        let selection = data.selection(&shaped)?;
+        let selection = data.selection(&shaped, slack)?;
         let kept: Vec<Term> = selection.chosen_terms().into_iter().filter(|t| t.shape().is_some()).collect();
-        match kept.len() {
-            // The plain grid has the better known statistics.
-            0 => return Ok(plain),
-            n if n == shaped.len() => return Ok(selection),
-            _ => shaped = kept,
+        if kept.len() == shaped.len() {
+            return Ok(selection);
         }
+        shaped = kept;
     }
 }
 
@@ -114,15 +142,15 @@ pub(crate) struct FitData {
 }
 
 impl FitData {
-    fn selection(&self, shaped: &[Term]) -> Result<Selection, AllanError> {
+    fn selection(&self, shaped: &[Term], slack: f64) -> Result<Selection, AllanError> {
         let terms: Vec<Term> = Term::POWER_LAWS.iter().chain(shaped).copied().collect();
-        Selection::of(&self.curve, &terms, self.table.with(&self.layout, shaped))
+        Selection::of(&self.curve, &terms, self.table.with(&self.layout, shaped), slack)
     }
 }
 
 /// Moves the shape of one term to the best likelihood within a grid step to both sides, by golden section, with
 /// these kinds of terms in the model.
-fn refine(data: &FitData, shaped: &mut [Term], place: usize, chosen: &[Term]) {
+fn refine(data: &FitData, slack: f64, shaped: &mut [Term], place: usize, chosen: &[Term]) {
     let start = shaped[place];
     if !chosen.iter().any(|t| same_kind(*t, start)) {
         return;
@@ -135,7 +163,7 @@ fn refine(data: &FitData, shaped: &mut [Term], place: usize, chosen: &[Term]) {
         let terms: Vec<Term> = known.iter().copied().chain([trial]).collect();
         let set: Vec<usize> =
             (0..terms.len()).filter(|i| chosen.iter().any(|t| same_kind(*t, terms[*i]))).collect();
-        let problem = Problem::new(&data.curve, &terms, table.with(&data.layout, &[trial]));
+        let problem = Problem::new(&data.curve, &terms, table.with(&data.layout, &[trial]), slack);
         problem.fit(&set).map_or(f64::INFINITY, |f| f.deviance)
     };
     let step = grid_step(start) * LN_2;

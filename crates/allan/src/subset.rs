@@ -17,6 +17,8 @@ pub(crate) struct Problem {
     /// Power of a term = scale × its fitted coefficient.
     scale: Vec<f64>,
     table: CovarianceTable,
+    /// Relative error of the model itself at each averaging time, independent between them.
+    slack: f64,
 }
 
 /// A fitted subset.
@@ -42,7 +44,7 @@ const RIDGE: f64 = 0.003;
 const ROUNDS: usize = 30;
 
 impl Problem {
-    pub fn new(curve: &Curve, terms: &[Term], table: CovarianceTable) -> Self {
+    pub fn new(curve: &Curve, terms: &[Term], table: CovarianceTable, slack: f64) -> Self {
         let variance: Vec<f64> = curve.points.iter().map(|p| p.variance).collect();
         let tau: Vec<f64> = curve.points.iter().map(|p| p.tau).collect();
         let mut shapes = DMatrix::from_fn(variance.len(), terms.len(), |i, p| {
@@ -55,7 +57,7 @@ impl Problem {
             scale.push(1.0 / top);
         }
         let lengths = curve.points.iter().map(|p| p.m as f64 / curve.n_phase as f64).collect();
-        Self { terms: terms.to_vec(), variance, tau, lengths, shapes, scale, table }
+        Self { terms: terms.to_vec(), variance, tau, lengths, shapes, scale, table, slack }
     }
 
     /// Number of estimates.
@@ -72,6 +74,7 @@ impl Problem {
             for j in 0..v.ncols() {
                 v[(i, j)] /= self.variance[i] * self.variance[j];
             }
+            v[(i, i)] += self.slack * self.slack;
         }
         v
     }

@@ -8,7 +8,7 @@ const SAMPLES: usize = 864_000;
 /// Fits of the three gyro axes of a simulated log at rest.
 fn fits(sources: Vec<Source>, run: u64) -> Vec<Fit> {
     let mut imu = Imu::new(&Spec::from_sources(sources).unwrap(), Stream { seed: 4, run }).unwrap();
-    let mut axes = vec![Vec::new(); 3];
+    let mut axes: [Vec<f64>; 3] = Default::default();
     let rest = Truth::rates([0.0; 3], [0.0; 3]);
     for _ in 0..SAMPLES {
         let omega = imu.step(TAU0, &rest).omega();

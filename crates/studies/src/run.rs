@@ -1,14 +1,17 @@
 //! From a scenario to a record.
 
-use crate::{Context, Error, Scenario, drift, imu_study, navigate, record::Record, scenario::Study};
+use crate::{
+    Context, Error, Scenario, allan_study, drift, imu_study, navigate, record::Record, scenario::Study,
+};
 
 /// Runs the study of a scenario and judges its `expect`. A pure function of the scenario and, for
-/// `navigate`, of the log.
+/// `navigate` and `allan`, of the log.
 pub fn run(scenario: &Scenario, context: &Context) -> Result<Record, Error> {
     let mut record = match &scenario.study {
         Study::Imu(study) => imu_study::run(scenario, study, context)?,
         Study::Drift(_) => drift::run(scenario, context)?,
         Study::Navigate(_) => navigate::run(scenario, context)?,
+        Study::Allan(_) => allan_study::run(scenario, context)?,
     };
     record.judge(scenario);
     Ok(record)

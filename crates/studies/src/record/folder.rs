@@ -96,7 +96,9 @@ fn stranger(path: &Path) -> io::Result<Option<std::ffi::OsString>> {
     let names: Vec<std::ffi::OsString> =
         entries.map(|e| e.map(|e| e.file_name())).collect::<Result<_, _>>()?;
     let ours = |name: &std::ffi::OsString| {
-        name == SUMMARY || name == FIGURES || Path::new(name).extension().is_some_and(|e| e == "csv")
+        name == SUMMARY
+            || name == FIGURES
+            || Path::new(name).extension().is_some_and(|e| e == "csv" || e == "yaml")
     };
     // Without a summary even a CSV may be anybody's.
     let run = names.iter().any(|name| name == SUMMARY);
@@ -118,6 +120,11 @@ fn fill(part: &Path, record: &Record, formats: Formats) -> Result<(), Error> {
             table.write_csv(&mut file).map_err(failed(&path))?;
             files.push(name);
         }
+    }
+    for (name, text) in &record.texts {
+        let path = part.join(name);
+        fs::write(&path, text).map_err(failed(&path))?;
+        files.push(name.clone());
     }
     let mut draw = |extension: &str, write: &dyn Fn(&crate::figure::Figure, &Path) -> Result<(), _>| {
         for (stem, figure) in &record.figures {

@@ -28,6 +28,8 @@ pub struct Record {
     pub summary: Table,
     /// Remarks a reader of the numbers must know (a bound, a formula's limit), one sentence each.
     pub notes: Vec<String>,
+    /// Other files, each with its name (`sources.yaml`).
+    pub texts: Vec<(String, String)>,
     /// Each `expect` of the scenario with its verdict.
     pub verdicts: Vec<Verdict>,
 }
@@ -94,6 +96,7 @@ impl Record {
             summary,
             notes: Vec::new(),
             figures: Vec::new(),
+            texts: Vec::new(),
             verdicts: Vec::new(),
         }
     }

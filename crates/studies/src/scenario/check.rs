@@ -33,11 +33,13 @@ impl Document {
             StudyKind::Imu => Study::Imu(self.imu_study(w)?),
             StudyKind::Drift => Study::Drift(self.drift(w)?),
             StudyKind::Navigate => Study::Navigate(self.navigate(w)?),
+            StudyKind::Allan => Study::Allan(self.log(&self.required_log(w, "allan")?.value)?),
         };
         let rate = match &study {
             Study::Imu(s) => s.imu.rate,
             Study::Drift(s) => s.imu.rate,
             Study::Navigate(s) => s.log.rate,
+            Study::Allan(log) => log.rate,
         };
         let output = self.output(w.output.as_ref(), rate)?;
         let expect = w.expect.iter().map(|e| self.expect(e, w.study.value)).collect::<Result<_, _>>()?;
@@ -55,13 +57,13 @@ impl Document {
         fn node<T>(key: &Option<At<T>>) -> Option<NodeId> {
             key.as_ref().map(|k| k.node)
         }
-        use StudyKind::{Drift, Imu, Navigate};
+        use StudyKind::{Allan, Drift, Imu, Navigate};
         let keys: [(Option<NodeId>, &[StudyKind]); 6] = [
             (node(&w.motion), &[Imu, Drift]),
             (node(&w.imu), &[Imu, Drift]),
             (node(&w.initial_errors), &[Drift]),
             (node(&w.mechanization), &[Drift, Navigate]),
-            (node(&w.log), &[Navigate]),
+            (node(&w.log), &[Navigate, Allan]),
             (node(&w.align), &[Navigate]),
         ];
         for (node, studies) in keys {
@@ -136,7 +138,7 @@ impl Document {
     }
 
     fn navigate(&self, w: &written::Scenario) -> Result<Navigate, Diagnostic> {
-        let log = self.required(&w.log, "log", "navigate", "log: { file: imu.csv, rate: 100 Hz, … }")?;
+        let log = self.required_log(w, "navigate")?;
         let align =
             self.required(&w.align, "align", "navigate", "align: { method: triad, window: [0 s, 300 s] }")?;
         let written::Method::Triad = align.value.method.value;
@@ -159,6 +161,14 @@ impl Document {
             mechanization: self.mechanization(w, "navigate")?,
             duration,
         })
+    }
+
+    fn required_log<'w>(
+        &self,
+        w: &'w written::Scenario,
+        study: &str,
+    ) -> Result<&'w At<written::Log>, Diagnostic> {
+        self.required(&w.log, "log", study, "log: { file: imu.csv, rate: 100 Hz, … }")
     }
 
     fn required_start(&self, w: &written::Scenario, study: &str) -> Result<Start, Diagnostic> {

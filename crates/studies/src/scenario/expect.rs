@@ -47,6 +47,8 @@ impl Document {
         let known: Vec<&str> = match study {
             StudyKind::Imu => [columns::IMU_ERRORS, columns::RATES, columns::INCREMENTS].concat(),
             StudyKind::Drift => columns::ERRORS.to_vec(),
+            // Its results are statistics with intervals of their own.
+            StudyKind::Allan => Vec::new(),
             StudyKind::Navigate => {
                 [&columns::TRAJECTORY[..], &columns::ERRORS[3..], &columns::LOG[2..]].concat()
             }

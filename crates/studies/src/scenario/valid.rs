@@ -36,13 +36,15 @@ pub enum Study {
     Drift(Drift),
     /// A recorded log.
     Navigate(Navigate),
+    /// Allan deviations of a recorded log, and the error model in them.
+    Allan(LogSpec),
 }
 
 impl Scenario {
     /// How the study navigates, if it does.
     pub fn mechanization(&self) -> Option<&Mechanization> {
         match &self.study {
-            Study::Imu(_) => None,
+            Study::Imu(_) | Study::Allan(_) => None,
             Study::Drift(drift) => Some(&drift.mechanization),
             Study::Navigate(navigate) => Some(&navigate.mechanization),
         }
@@ -56,6 +58,7 @@ impl Study {
             Study::Imu(_) => "imu",
             Study::Drift(_) => "drift",
             Study::Navigate(_) => "navigate",
+            Study::Allan(_) => "allan",
         }
     }
 }

@@ -56,6 +56,8 @@ pub enum StudyKind {
     Drift,
     /// A recorded log.
     Navigate,
+    /// Allan deviations of a recorded log, and the error model in them.
+    Allan,
 }
 
 /// Place, time, attitude and velocity at t = 0.

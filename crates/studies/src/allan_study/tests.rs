@@ -1,0 +1,101 @@
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use schuler_imu::{Imu, Instrument::Accel, Instrument::Gyro, Source, Spec, Stream, Truth};
+
+use crate::record::{Column, Record};
+use crate::{Context, Error, Scenario};
+
+const DEG_SQRT_H: f64 = std::f64::consts::PI / 180.0 / 60.0;
+
+/// Half an hour at 10 Hz at rest with white noise on all axes and a bias on one; column gz stuck if wanted.
+fn log(stuck: bool) -> String {
+    let white = |i, n: f64| Source::named(i, "bias", "white", &[("density", n.into())]).unwrap();
+    let spec = Spec::from_sources([white(Gyro, 0.3 * DEG_SQRT_H), white(Accel, 1e-3)]).unwrap();
+    let mut imu = Imu::new(&spec, Stream { seed: 11, run: 0 }).unwrap();
+    let mut text = String::from("gx,gy,gz,ax,ay,az\n");
+    for _ in 0..18_000 {
+        let sample = imu.step(0.1, &Truth::rates([1e-3, 0.0, 0.0], [0.0, 0.0, -9.81]));
+        let [gx, gy, gz] = sample.dtheta;
+        let [ax, ay, az] = sample.dv;
+        let gz = if stuck { 0.0 } else { gz };
+        writeln!(text, "{gx:e},{gy:e},{gz:e},{ax:e},{ay:e},{az:e}").unwrap();
+    }
+    text
+}
+
+fn run(name: &str, text: &str) -> Result<Record, Error> {
+    let folder: PathBuf = std::env::temp_dir().join(format!("schuler-allan-{name}-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("log.csv"), text).unwrap();
+    let scenario = "schuler: 1\nstudy: allan\ntitle: A log of white noise\nlog:\n  file: log.csv\n  rate: 10 Hz\n  content: increments\n  \
+         columns: { gyro: [gx, gy, gz], accel: [ax, ay, az] }\n  scale: { gyro: 1 rad, accel: 1 m/s }\n";
+    let scenario = Scenario::load("allan.yaml", scenario, &[])?;
+    let context = Context { data: Some(folder.clone()), ..Context::silent() };
+    let record = super::run(&scenario, &context);
+    std::fs::remove_dir_all(folder).unwrap();
+    record
+}
+
+fn numbers<'a>(record: &'a Record, table: &str, column: &str) -> &'a [f64] {
+    let table = record.tables.iter().find(|t| t.name == table).unwrap();
+    table.numbers(column).unwrap()
+}
+
+fn words(record: &Record, table: &str, column: &str) -> Vec<String> {
+    let table = record.tables.iter().find(|t| t.name == table).unwrap();
+    let column = table.columns.iter().find(|c| c.name() == column).unwrap();
+    match column {
+        Column::Word { words, codes, .. } => codes.iter().map(|c| words[*c as usize].clone()).collect(),
+        Column::Number { .. } => panic!("numbers"),
+    }
+}
+
+/// N comes back on every axis within five of its standard errors (0.53 % by the Cramér-Rao bound), and the sources
+/// found are a scenario's.
+#[test]
+fn white_noise_comes_back_as_error_sources() {
+    let record = run("white", &log(false)).unwrap();
+    let (axes, terms) = (words(&record, "parameters", "axis"), words(&record, "parameters", "term"));
+    let values = numbers(&record, "parameters", "value_si");
+    let mut found = 0;
+    for ((axis, term), value) in axes.iter().zip(&terms).zip(values) {
+        if term == "random walk N" {
+            let want = if axis.starts_with("gyro") { 0.3 * DEG_SQRT_H } else { 1e-3 };
+            assert!((value / want - 1.0).abs() < 0.027, "{axis}: {value}, true {want}");
+            found += 1;
+        }
+    }
+    assert_eq!(found, 6);
+    assert_eq!(record.figures.len(), 6);
+    // Every estimate lies within its interval.
+    let [dev, low, high] =
+        ["deviation_radps", "low_radps", "high_radps"].map(|c| numbers(&record, "allan_gyro", c));
+    assert!((0..dev.len()).all(|i| low[i] < dev[i] && dev[i] < high[i]));
+
+    let (name, sources) = &record.texts[0];
+    assert_eq!(name, "sources.yaml");
+    let mut scenario = String::from(
+        "schuler: 1\nstudy: imu\ntitle: again\nmotion: zero_truth\nduration: 10 s\nimu:\n  rate: 10 Hz\n",
+    );
+    for line in sources.lines() {
+        writeln!(scenario, "  {line}").unwrap();
+    }
+    Scenario::load("again.yaml", &scenario, &[]).unwrap();
+}
+
+/// An axis that says nothing is named, and the others are done.
+#[test]
+fn a_stuck_axis_is_named() {
+    let record = run("stuck", &log(true)).unwrap();
+    let note = record.notes.iter().find(|n| n.starts_with("gyro.z")).unwrap();
+    assert!(note.contains("constant column"), "{note}");
+    assert_eq!(record.figures.len(), 5);
+    assert!(record.texts[0].1.contains("gyro: []"));
+}
+
+#[test]
+fn a_bad_row_is_refused() {
+    let text = log(false).replacen("\n", "\nnan,0,0,0,0,0\n", 1);
+    assert!(run("nan", &text).is_err());
+}
