@@ -6,8 +6,9 @@ use crate::kernel::{Quaternion, Sum, turn};
 use crate::series::Series;
 use crate::{BodyMotion, Increments, Mechanization, Pva, Vertical};
 
-/// Age of the anchor at which it is moved along, s.
-const ANCHOR_AGE: f64 = 2.0;
+/// Way (m) and time (s) after which the anchor is moved along, whichever comes first.
+const REACH: f64 = 1500.0;
+const LIFE: f64 = 4.0;
 
 /// A frame with its origin in the Earth's centre and its z axis along the Earth's.
 pub trait Centred: Frame {
@@ -46,7 +47,7 @@ pub type Inertial<S = f64> = Cartesian<I, S>;
 ///
 /// with g the gravity in e, the gravitation in i. Gravity and Coriolis acceleration are those of
 /// the middle of the step. Products and sums alone do it: gravity stands as a series about an anchor that
-/// follows every two seconds. No place is special, the poles are passed like any other.
+/// follows every 1.5 km or four seconds. No place is special, the poles are passed like any other.
 ///
 /// The vertical channel means what it means in local level. With u the ellipsoid's normal: held, velocity along u
 /// and height are put back at every step to what they were at the start, along u, which is the force of
@@ -63,8 +64,10 @@ pub struct Cartesian<F: Frame, S = f64> {
     /// Way gone since, m.
     way: Vec3<F, S>,
     series: Series<F, S>,
-    /// Time since the anchor and since the start, s.
+    /// Time since the anchor, and that at which it is moved along, s.
     age: f64,
+    life: f64,
+    /// Time since the start, s.
     time: Sum<f64>,
     /// Height (m) and vertical velocity (m/s) at the start, up: what a held channel stays at.
     h0: f64,
@@ -91,6 +94,7 @@ impl<F: Centred> Cartesian<F> {
             anchor: r.as_array().map(Sum::new),
             way: Vec3::ZERO,
             series: series_ahead(r, v, gravity, vertical),
+            life: life(v),
             age: 0.0,
             time: Sum::new(0.0),
             h0: pva.position.h,
@@ -108,8 +112,14 @@ impl<F: Centred> Cartesian<F> {
         }
         self.way = Vec3::ZERO;
         let anchor = Vec3::claim(self.anchor.map(|sum| sum.value()));
+        self.life = life(self.velocity());
         self.series = series_ahead(anchor, self.velocity(), self.gravity, self.vertical);
     }
+}
+
+/// For how long an anchor serves at the velocity `v` (m/s), s.
+fn life<F: Centred>(v: Vec3<F>) -> f64 {
+    (REACH / v.norm()).min(LIFE)
 }
 
 /// The series about the middle of the way to come.
@@ -119,7 +129,7 @@ fn series_ahead<F: Centred>(
     gravity: Gravity,
     vertical: Vertical,
 ) -> Series<F, f64> {
-    let centre = v * (0.5 * ANCHOR_AGE);
+    let centre = v * (0.5 * life(v));
     Series::new(anchor, centre, |r| F::gravity(gravity, r), vertical != Vertical::Free)
 }
 
@@ -137,7 +147,7 @@ impl<F: Centred> Mechanization for Cartesian<F> {
     #[inline]
     fn advance(&mut self, motion: &BodyMotion, dt: f64) {
         self.age += dt;
-        if self.age > ANCHOR_AGE {
+        if self.age > self.life {
             self.expand();
             self.age = dt;
         }

@@ -8,7 +8,7 @@ const OFFSET: f64 = 300.0;
 
 /// Gravity to second order and the vertical to first order in the way from a centre, and the height.
 ///
-/// What is left out of gravity is of third order, 4 g (way/R)³: 4e-12 m/s² at 300 m. As the
+/// What is left out of gravity is of third order, 4 g (way/R)³: 6e-11 m/s² at 750 m. As the
 /// centre lies in the middle of the way, it has opposite signs before and behind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Series<F: Frame, S> {
