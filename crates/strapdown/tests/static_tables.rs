@@ -114,6 +114,11 @@ fn worst_held(name: &str, dt: [f64; 4]) -> [f64; 4] {
         .map(|(_, nav)| worst_of(nav, name, &case, *dt.next().expect("one step a frame")))
 }
 
+/// The larger of two, where no number counts as the largest: `f64::max` would pass over it.
+fn larger(a: f64, b: f64) -> f64 {
+    if b.is_nan() || b > a { b } else { a }
+}
+
 fn worst_of(mut nav: Box<dyn Mechanization>, name: &str, case: &Case, dt: f64) -> f64 {
     let rows = table(&format!("nl_{name}"));
     let times: Vec<f64> = rows.iter().map(|r| r.0).collect();
@@ -125,7 +130,7 @@ fn worst_of(mut nav: Box<dyn Mechanization>, name: &str, case: &Case, dt: f64) -
         assert_eq!(*time, t);
         let north = (pva.position.lat - p.lat - expected[5]) * site.r_m;
         let east = (pva.position.lon - p.lon - expected[6]) * site.r_n * site.cos_lat;
-        worst = worst.max(north.hypot(east));
+        worst = larger(worst, north.hypot(east));
     };
     navigate(nav.as_mut(), case, dt, at, &times);
     worst
@@ -144,7 +149,9 @@ fn nonlinear_run_meets_the_quad_tables_within_a_millimetre() {
         let worst = worst_held(name, [0.01, dt, dt, dt]);
         let [t, w, e, i] = worst;
         report += &format!("{name}: t {t:.1e}, w {w:.1e}, e {e:.1e}, i {i:.1e} m\n");
-        failed |= worst.iter().any(|&w| w > 1e-3);
+        // The local level run is at the rate of the tables' claim; the others at lower rates, to save time.
+        let limits = [5e-6, 1e-3, 1e-3, 1e-3];
+        failed |= !worst.iter().zip(limits).all(|(&w, limit)| w < limit);
     }
     println!("{report}");
     assert!(!failed, "{report}");
@@ -190,7 +197,7 @@ fn worst_free(nav: &mut dyn Mechanization, name: &str, case: &Case) -> f64 {
         let expected = &row.next().unwrap().1;
         for k in 0..9 {
             let error = (got[k] - expected[k]).abs() / scale[k];
-            worst = f64::max(worst, error);
+            worst = larger(worst, error);
         }
     };
     navigate(nav, case, 0.01, at, &times);
@@ -266,7 +273,7 @@ fn tilted_day_stays_below_two_tenths_of_a_millimetre() {
         for k in 0..8_640_000 {
             nav.step(&increments, DT);
             if k % 6000 == 0 {
-                worst = worst.max(schuler_strapdown::NavError::between(&nav.pva(), &truth).dr.norm());
+                worst = larger(worst, schuler_strapdown::NavError::between(&nav.pva(), &truth).dr.norm());
             }
         }
         println!("{frame}: {worst:.1e} m");

@@ -35,6 +35,18 @@ pub enum Error {
         /// What the drawing library said.
         reason: String,
     },
+    /// A run left the range of its equations: errors beyond all sense, or a path over a pole.
+    #[error(
+        "the {way} run of {source_name} gives no numbers from {time} s on: the error is too large for the navigator, or its path meets a pole; expected a source that keeps the navigator on the Earth (0.01 deg/h, 100 ug)"
+    )]
+    Diverged {
+        /// The error source.
+        source_name: String,
+        /// The way of the run.
+        way: &'static str,
+        /// Time of the first row without numbers, s.
+        time: f64,
+    },
     /// The IMU model refused its list of error sources.
     #[error("imu: {0}")]
     Imu(#[from] schuler_imu::Error),

@@ -85,6 +85,7 @@ fn deviations(vertical: Vertical) -> [[f64; 9]; 15] {
             let (plus, minus) = (NavError::between(&plus.pva(), &now), NavError::between(&minus.pva(), &now));
             for row in 0..9 {
                 let curve = 0.5 * (plus.as_array()[row] - minus.as_array()[row]);
+                assert!(curve.is_finite() && linear[(row, source)].is_finite(), "a run without numbers");
                 worst[source][row] = worst[source][row].max((linear[(row, source)] - curve).abs());
                 largest[source][row] = largest[source][row].max(curve.abs());
             }

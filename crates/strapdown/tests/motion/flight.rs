@@ -52,6 +52,7 @@ fn spread(all: &[Pva]) -> (f64, f64) {
     for (k, a) in all.iter().enumerate() {
         for b in &all[..k] {
             let (horizontal, vertical) = distance(a, b);
+            assert!(horizontal.is_finite() && vertical.is_finite(), "a navigator without numbers");
             most = (most.0.max(horizontal), most.1.max(vertical));
         }
     }

@@ -98,7 +98,7 @@ fn beside(conditions: &str, scene: &Scene, c: &Curves) -> Figure {
             curve(rows, 1.0).into_iter().map(|[t, s]| [t, -s, s]).collect()
         };
         for (way, rows) in &c.ways {
-            panel = match (way, c.random) {
+            panel = match (way, c.sigma) {
                 (Way::Nonlinear, false) => {
                     panel.with(Series::line("non-linear run", curve(rows, 1.0)).colour(Colour::palette(0)))
                 }

@@ -157,7 +157,8 @@ impl Linear {
     }
 
     fn deviation(&self, p: &DMatrix<f64>) -> NavError {
-        let sd = |k: usize| p[(k, k)].max(0.0).sqrt() / self.scale[k];
+        // A variance that is zero but for rounding may come out below zero; anything else must show.
+        let sd = |k: usize| if p[(k, k)].abs() < 1e-30 { 0.0 } else { p[(k, k)].sqrt() / self.scale[k] };
         NavError {
             dr: Vec3::new(sd(0), sd(1), sd(2)),
             dv: Vec3::new(sd(3), sd(4), sd(5)),
@@ -172,19 +173,31 @@ fn unit_of(effect: f64, wanted: f64) -> f64 {
 }
 
 /// Transition matrix and noise covariance of `x' = a x + w`, w of density q, over `dt` seconds.
+///
+/// Van Loan's exponential holds exp(-a h) beside exp(a h): over a step that is long against the fastest time
+/// constant it cancels or overflows. So it is taken over a short step and doubled, which only adds what is positive.
 /// Source: C. F. Van Loan, Computing integrals involving the matrix exponential, IEEE Trans. Automatic
 /// Control 23 (1978).
 fn van_loan(a: &DMatrix<f64>, q: &DMatrix<f64>, dt: f64) -> (DMatrix<f64>, DMatrix<f64>) {
     let n = a.nrows();
+    let mut doublings = 0;
+    while a.norm() * dt * 0.5f64.powi(doublings) > 0.5 {
+        doublings += 1;
+    }
+    let h = dt * 0.5f64.powi(doublings);
     // The covariance is linear in q, so that q may enter at the size of a.
     let unit = unit_of(q.amax(), a.amax());
     let mut m = DMatrix::zeros(2 * n, 2 * n);
-    m.view_mut((0, 0), (n, n)).copy_from(&(a * -dt));
-    m.view_mut((0, n), (n, n)).copy_from(&(q * (dt * unit)));
-    m.view_mut((n, n), (n, n)).copy_from(&(a.transpose() * dt));
+    m.view_mut((0, 0), (n, n)).copy_from(&(a * -h));
+    m.view_mut((0, n), (n, n)).copy_from(&(q * (h * unit)));
+    m.view_mut((n, n), (n, n)).copy_from(&(a.transpose() * h));
     let e = m.exp();
-    let phi = e.view((n, n), (n, n)).transpose();
-    let qd = &phi * e.view((0, n), (n, n)) / unit;
+    let mut phi = e.view((n, n), (n, n)).transpose();
+    let mut qd = &phi * e.view((0, n), (n, n)) / unit;
+    for _ in 0..doublings {
+        qd = &phi * &qd * phi.transpose() + &qd;
+        phi = &phi * &phi;
+    }
     let symmetric = (&qd + qd.transpose()) * 0.5;
     (phi, symmetric)
 }

@@ -15,7 +15,7 @@ use schuler_strapdown::static_base::{Response, exact, single_axis};
 
 use crate::record::{Record, Table, columns};
 use crate::scenario::{Drift, Study};
-use crate::{Context, Error, Scenario};
+use crate::{Context, Diagnostic, Error, Scenario};
 use case::{Case, cases};
 use linear::{Linear, Path};
 use scene::Scene;
@@ -45,7 +45,10 @@ impl Way {
 /// The curves of one case, one error for each row of the scene.
 struct Curves {
     case: Case,
+    /// Anything in it is drawn at random.
     random: bool,
+    /// `exact` and `single_axis` are standard deviations.
+    sigma: bool,
     ways: Vec<(Way, Vec<NavError>)>,
 }
 
@@ -70,6 +73,7 @@ pub fn run(scenario: &Scenario, context: &Context) -> Result<Record, Error> {
     };
     let scene = Scene::new(drift, scenario.output.every);
     let cases = cases(drift);
+    possible(scenario, drift, &scene, cases.len())?;
     context.progress.begin("drift", 2 * cases.len() as u64);
     // Cases are independent and each is a pure function of the scenario: their number of threads changes nothing.
     let curves: Result<Vec<Curves>, Error> =
@@ -117,17 +121,61 @@ fn curves(scene: &Scene, drift: &Drift, case: Case, seed: u64, context: &Context
     ways.push((Way::Linear, sample_path));
 
     let held = drift.mechanization.vertical == crate::scenario::Vertical::Held;
-    if !random {
+    // A random source alone has no known part: its laws are standard deviations. All together have one.
+    let sigma = random && case.name != "all";
+    if !sigma {
         let drivers = case.drivers(scene);
         if held {
             ways.push((Way::Exact, sampled(scene, &exact(&scene.site, &drivers))));
         }
         ways.push((Way::SingleAxis, sampled(scene, &single_axis(&scene.site, &drivers))));
-    } else if case.name != "all" {
+    } else {
         ways.push((Way::Exact, linear.sigmas(scene, &case)));
         ways.push((Way::SingleAxis, Linear::single_axis(scene).sigmas(scene, &case)));
     }
-    Ok(Curves { case, random, ways })
+    finite(scene, &case, &ways)?;
+    Ok(Curves { case, random, sigma, ways })
+}
+
+/// Refuses what no run could answer: a place where north has no meaning, more rows than memory holds.
+fn possible(scenario: &Scenario, drift: &Drift, scene: &Scene, cases: usize) -> Result<(), Error> {
+    /// Beyond this the local level frame turns about the vertical faster than its error equations stay linear.
+    const HIGHEST: f64 = 89.9;
+    /// Rows of `errors.csv`, of 100 bytes each.
+    const MOST_ROWS: usize = 20_000_000;
+    let lat = drift.start.position.lat.to_degrees();
+    if lat.abs() > HIGHEST {
+        let fault = Diagnostic::new(&scenario.file, "the local level frame has no north this near to a pole")
+            .path("start.position.lat")
+            .expected(format!("at most {HIGHEST} deg north or south"))
+            .found(format!("{lat} deg"))
+            .example("lat: 80 deg");
+        return Err(fault.into());
+    }
+    let rows = scene.rows.len() * cases * columns::WAYS.len();
+    if rows > MOST_ROWS {
+        let fault = Diagnostic::new(&scenario.file, "more rows than can be kept")
+            .path("output.every")
+            .expected(format!("at most {MOST_ROWS} rows of all sources and ways together"))
+            .found(format!("{} rows of time, {cases} cases, {} ways", scene.rows.len(), columns::WAYS.len()))
+            .example("every: 60 s");
+        return Err(fault.into());
+    }
+    Ok(())
+}
+
+/// Refuses curves with values that are no numbers: the source drove the navigator where its equations end.
+fn finite(scene: &Scene, case: &Case, ways: &[(Way, Vec<NavError>)]) -> Result<(), Error> {
+    for (way, rows) in ways {
+        if let Some(k) = rows.iter().position(|e| e.as_array().iter().any(|x| !x.is_finite())) {
+            return Err(Error::Diverged {
+                source_name: case.name.clone(),
+                way: way.name(),
+                time: scene.time(scene.rows[k]),
+            });
+        }
+    }
+    Ok(())
 }
 
 fn sampled(scene: &Scene, response: &Response) -> Vec<NavError> {
