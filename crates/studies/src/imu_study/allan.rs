@@ -1,5 +1,6 @@
 //! Allan deviations of a measurement study: closed forms of each source and of their sum, and the estimate.
 
+use schuler_allan::{Curve, Estimator, Grid, Phase};
 use schuler_imu::{Component, Input, Instrument, Spec, Truth};
 
 use crate::{
@@ -8,10 +9,46 @@ use crate::{
 };
 
 /// Averaging times in a decade.
-const PER_DECADE: i32 = 20;
+const PER_DECADE: u32 = 20;
 
 /// `source` of the sum of all sources.
 pub const SUM: &str = "sum";
+
+/// `source` of the estimate from the samples.
+const SIMULATED: &str = "simulated";
+
+/// An estimate at a longer averaging time than this part of the run says next to nothing.
+const SHARE: f64 = 4.0;
+
+/// Errors of each axis of each instrument, sample by sample.
+#[derive(Default)]
+pub struct Errors([[Vec<f64>; 3]; 2]);
+
+impl Errors {
+    /// One sample more.
+    pub fn push(&mut self, errors: Axes) {
+        for (all, error) in self.0.as_flattened_mut().iter_mut().zip(errors.as_flattened()) {
+            all.push(*error);
+        }
+    }
+
+    /// Overlapping Allan deviations at the averaging factors, of each axis; zero where an axis has no error and
+    /// beyond [`SHARE`].
+    fn deviations(&self, factors: &[usize], dt: f64) -> [[Vec<f64>; 3]; 2] {
+        [0, 1].map(|i| [0, 1, 2].map(|j| deviations(&self.0[i][j], factors, dt)))
+    }
+}
+
+fn deviations(errors: &[f64], factors: &[usize], dt: f64) -> Vec<f64> {
+    let grid = Grid::Factors(factors.to_vec());
+    let some = errors.iter().any(|error| *error != 0.0);
+    let phase = some.then(|| Phase::from_rate(errors, dt).ok()).flatten();
+    // Nothing but a run of a sample or two has no estimate at all.
+    let curve = phase.and_then(|phase| Curve::estimate(&phase, Estimator::Overlapping, &grid).ok());
+    let points = curve.map_or(Vec::new(), |curve| curve.up_to(SHARE).points);
+    let at = |m: &usize| points.iter().find(|p| p.m == *m).map_or(0.0, |p| p.deviation());
+    factors.iter().map(at).collect()
+}
 
 /// One number for each axis of each instrument.
 type Axes = [[f64; 3]; 2];
@@ -78,17 +115,21 @@ impl Theory {
         (of_sources, deviation(&all_variance, &all_slope, tau))
     }
 
-    /// `allan.csv`: a row for each source with an Allan deviation, for the sum, at each averaging time.
-    pub fn table(&self, samples: u64, dt: f64) -> Table {
+    /// `allan.csv`: at each averaging time, up to half of the run, a row for each source with an Allan deviation, for
+    /// the sum and for the estimate.
+    pub fn table(&self, errors: &Errors, samples: u64, dt: f64) -> Table {
         let mut table = Table::new("allan", &columns::ALLAN, &["source"]);
-        for tau in averaging_times(samples, dt) {
+        let factors = Grid::PerDecade(PER_DECADE).factors(samples as usize / 2);
+        let simulated = errors.deviations(&factors, dt);
+        for (k, m) in factors.iter().enumerate() {
+            let tau = *m as f64 * dt;
             let (of_sources, sum) = self.deviations(tau);
-            for (name, axes) in of_sources {
-                if axes.as_flattened().iter().any(|deviation| *deviation > 0.0) {
+            let estimate = simulated.each_ref().map(|axes| axes.each_ref().map(|axis| axis[k]));
+            for (name, axes) in of_sources.into_iter().chain([(SUM, sum), (SIMULATED, estimate)]) {
+                if axes.as_flattened().iter().any(|deviation| *deviation > 0.0) || name == SUM {
                     push(&mut table, tau, name, &axes);
                 }
             }
-            push(&mut table, tau, SUM, &sum);
         }
         table
     }
@@ -106,20 +147,6 @@ fn deviation(variance: &Axes, slope: &Axes, tau: f64) -> Axes {
     [0, 1].map(|i| [0, 1, 2].map(|j| (variance[i][j] + 0.5 * (slope[i][j] * tau).powi(2)).sqrt()))
 }
 
-/// Whole multiples of the sample interval, up to half of the run.
-fn averaging_times(samples: u64, dt: f64) -> Vec<f64> {
-    let mut factors: Vec<u64> = (0..)
-        // Whole decades are exact.
-        .map(|i: i32| {
-            let part = 10f64.powf(f64::from(i % PER_DECADE) / f64::from(PER_DECADE));
-            (10f64.powi(i / PER_DECADE) * part).round() as u64
-        })
-        .take_while(|m| 2 * m <= samples)
-        .collect();
-    factors.dedup();
-    factors.into_iter().map(|m| m as f64 * dt).collect()
-}
-
 /// A figure for each instrument that has Allan deviations: one panel where its axes are alike, else one for each.
 pub fn figures(table: &Table, conditions: &str) -> Vec<(String, Figure)> {
     let instruments = [
@@ -135,21 +162,27 @@ pub fn figures(table: &Table, conditions: &str) -> Vec<(String, Figure)> {
             return None;
         }
         let shown = quantity.shown(largest);
-        let alike = axes[1] == axes[0] && axes[2] == axes[0];
+        let all: Vec<_> = axes.iter().map(|axis| curves(table, axis)).collect();
+        let alike = all.iter().all(|axis| theory(axis).eq(theory(&all[0])));
         let mut figure = Figure::new(title, Axis::log("averaging time (s)")).subtitle(conditions);
-        let panels: &[(usize, &str)] =
-            if alike { &[(0, "x, y, z")] } else { &[(0, "x"), (1, "y"), (2, "z")] };
-        for &(j, label) in panels {
-            let curves = curves(table, axes[j]);
-            let (low, high) = range(&curves, shown.per_si);
-            let axis = Axis::log(format!("{label} ({})", shown.symbol)).from_to(low, high);
-            let mut panel = Panel::new(axis);
-            for (name, points) in curves {
-                // A sinusoid falls to nothing at whole periods; the line then leaves the picture.
-                let shown = |[tau, y]: [f64; 2]| [tau, (y * shown.per_si).max(0.1 * low)];
-                let points = points.into_iter().map(shown);
+        let panels: &[(&str, &[usize])] =
+            if alike { &[("x, y, z", &[0, 1, 2])] } else { &[("x", &[0]), ("y", &[1]), ("z", &[2])] };
+        for (label, axes) in panels {
+            let (low, high) = range(&all[axes[0]], shown.per_si);
+            // A sinusoid falls to nothing at whole periods; the line then leaves the picture.
+            let line = |points: &[[f64; 2]]| -> Vec<[f64; 2]> {
+                points.iter().map(|[tau, y]| [*tau, (y * shown.per_si).max(0.1 * low)]).collect()
+            };
+            let mut panel = Panel::new(Axis::log(format!("{label} ({})", shown.symbol)).from_to(low, high));
+            for (name, points) in theory(&all[axes[0]]) {
                 let style = if name == SUM { Style::Line } else { Style::Dashed };
-                panel = panel.with(Series::line(name, points).style(style));
+                panel = panel.with(Series::line(name, line(points)).style(style));
+            }
+            for &j in *axes {
+                for (name, points) in all[j].iter().filter(|(name, _)| name == SIMULATED) {
+                    let name = if alike { format!("{name}, {}", ["x", "y", "z"][j]) } else { name.clone() };
+                    panel = panel.with(Series::line(name, line(points)).style(Style::Points));
+                }
             }
             figure = figure.panel(panel);
         }
@@ -158,8 +191,16 @@ pub fn figures(table: &Table, conditions: &str) -> Vec<(String, Figure)> {
     instruments.into_iter().enumerate().filter_map(figure).collect()
 }
 
+/// A curve by the name of its source.
+type Named = (String, Vec<[f64; 2]>);
+
+/// The closed forms among curves.
+fn theory(curves: &[Named]) -> impl Iterator<Item = &Named> {
+    curves.iter().filter(|(name, _)| name != SIMULATED)
+}
+
 /// Decades around the sum, with room for the sources below it.
-fn range(curves: &[(String, Vec<[f64; 2]>)], per_si: f64) -> (f64, f64) {
+fn range(curves: &[Named], per_si: f64) -> (f64, f64) {
     let sum = curves.iter().filter(|(name, _)| name == SUM).flat_map(|(_, points)| points);
     let (low, high) = sum
         .map(|[_, y]| y * per_si)
@@ -169,7 +210,7 @@ fn range(curves: &[(String, Vec<[f64; 2]>)], per_si: f64) -> (f64, f64) {
 }
 
 /// The curve of each source in a column, without those that are zero.
-fn curves(table: &Table, column: &[f64]) -> Vec<(String, Vec<[f64; 2]>)> {
+fn curves(table: &Table, column: &[f64]) -> Vec<Named> {
     let times = table.numbers("t_s").unwrap_or_default();
     let Some(crate::record::Column::Word { words, codes, .. }) = table.column("source") else {
         return Vec::new();

@@ -42,6 +42,7 @@ pub fn run(scenario: &Scenario, study: &ImuStudy, context: &Context) -> Result<R
     let mut measured = Table::new("imu", &measured_columns, &[]);
     let mut errors = Table::new("imu_errors", &columns::IMU_ERRORS, &[]);
     let mut flags = Table::new("imu_flags", &columns::IMU_FLAGS, &[]);
+    let mut kept = allan::Errors::default();
     let mut flagged = [[0u64; 6]; 2];
     let stride = scenario.output.every.map_or(1, |every| (every * study.imu.rate).round() as u64);
 
@@ -55,6 +56,9 @@ pub fn run(scenario: &Scenario, study: &ImuStudy, context: &Context) -> Result<R
             for (statistics, error) in statistics.iter_mut().zip(error) {
                 statistics.add(error);
             }
+        }
+        if study.allan {
+            kept.push([sample.omega_error, sample.f_error]);
         }
         let status = [sample.gyro, sample.accel].map(numbers);
         for (flagged, flag) in flagged.as_flattened_mut().iter_mut().zip(status.as_flattened()) {
@@ -93,7 +97,8 @@ pub fn run(scenario: &Scenario, study: &ImuStudy, context: &Context) -> Result<R
         record.tables.push(flags);
     }
     if study.allan {
-        let table = allan::Theory::new(&study.imu.spec, &profile.truth(0), dt).table(study.samples, dt);
+        let table =
+            allan::Theory::new(&study.imu.spec, &profile.truth(0), dt).table(&kept, study.samples, dt);
         record.figures.extend(allan::figures(&table, &figures::conditions(scenario, study)));
         record.tables.push(table);
     }
