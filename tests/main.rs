@@ -3,3 +3,4 @@
 mod cli;
 mod configs;
 mod schema;
+mod tables;

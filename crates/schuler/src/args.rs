@@ -24,7 +24,13 @@ pub enum Command {
     /// Print the JSON Schema of the scenario format.
     Schema,
     /// Print the tables of error terms and processes.
-    Sources,
+    Sources {
+        /// Print the page of the documentation: terms, processes and presets.
+        #[arg(long)]
+        markdown: bool,
+    },
+    /// Print the presets: devices and grades with their figures as printed and in SI.
+    Presets,
     /// Print completions for a shell.
     Completions {
         /// The shell.

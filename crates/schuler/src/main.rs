@@ -37,7 +37,9 @@ fn main() -> ExitCode {
         Command::Run(args) => run::run(&args),
         Command::Check(args) => run::check(&args),
         Command::Schema => print(&schuler_studies::scenario::json_schema()),
-        Command::Sources => print(&tables::sources()),
+        Command::Sources { markdown: false } => print(&tables::sources()),
+        Command::Sources { markdown: true } => print(&tables::page()),
+        Command::Presets => print(&tables::presets()),
         Command::Completions { shell } => {
             let mut text = Vec::new();
             clap_complete::generate(shell, &mut Args::command(), "schuler", &mut text);

@@ -22,6 +22,10 @@ pub struct Scene {
     pub omega_b: [f64; 3],
     /// True specific force f^b, m/s².
     pub f_b: [f64; 3],
+    /// Temperature of the run, K.
+    pub temperature: f64,
+    /// Temperature of the calibration, K.
+    pub calibration: f64,
     /// IMU sample interval, s.
     pub dt: f64,
     /// Numbers of IMU steps at which a row is recorded, beginning with 0.
@@ -50,6 +54,8 @@ impl Scene {
             vertical,
             omega_b: (c_tb.inverse() * omega_ie_t(s, c)).as_vec3().as_array(),
             f_b: (c_tb.inverse() * -g_t).as_array(),
+            temperature: drift.imu.temperature.as_ref().map_or(Truth::TEMPERATURE, |t| t.profile().at(0.0)),
+            calibration: drift.imu.spec.calibration_temperature,
             dt,
             rows,
         }
@@ -62,11 +68,11 @@ impl Scene {
 
     /// True motion as the injector takes it.
     pub fn motion(&self) -> Truth {
-        Truth::rates(self.omega_b, self.f_b)
+        Truth::rates(self.omega_b, self.f_b).with_temperature(self.temperature, 0.0)
     }
 
     /// What the terms of `instrument` see.
     pub fn input(&self, instrument: Instrument) -> Input {
-        Input::new(instrument, &self.motion(), self.dt, Truth::TEMPERATURE)
+        Input::new(instrument, &self.motion(), self.dt, self.calibration)
     }
 }

@@ -25,7 +25,7 @@ fn drift(lat_deg: f64, rate: f64, duration: f64, spec: Spec, initial_errors: Vec
             velocity: [0.0; 3],
         },
         samples: (duration * rate) as u64,
-        imu: Imu { rate, spec },
+        imu: Imu { rate, spec, temperature: None },
         initial_errors,
         mechanization: Mechanization {
             frame: Frame::T,

@@ -22,11 +22,6 @@ pub fn figures(
 ) -> Vec<(String, Figure)> {
     let times = errors.numbers("t_s").unwrap_or_default();
     let samples: Vec<f64> = times.iter().map(|t| (t * study.imu.rate).round()).collect();
-    let motion = match study.motion {
-        Motion::ZeroTruth => "zero truth",
-        Motion::Static => "at rest",
-        Motion::RateTable(_) => "on a rate table",
-    };
     let figure = |(i, (stem, title, quantity)): (usize, (&str, &str, Quantity))| {
         let columns: Vec<&[f64]> = errors.columns[1 + 3 * i..4 + 3 * i]
             .iter()
@@ -34,9 +29,7 @@ pub fn figures(
             .collect();
         let largest = columns.iter().copied().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
         let shown = quantity.shown(largest);
-        let conditions =
-            format!("{}: {motion}, {} Hz, seed {}", scenario.title, study.imu.rate, scenario.seed);
-        let mut figure = Figure::new(title, Axis::linear("sample")).subtitle(conditions);
+        let mut figure = Figure::new(title, Axis::linear("sample")).subtitle(conditions(scenario, study));
         for (j, axis) in ["x", "y", "z"].into_iter().enumerate() {
             let points = samples.iter().zip(columns[j]).map(|(k, e)| [*k, e * shown.per_si]);
             let mut panel = Panel::new(Axis::linear(format!("{axis} ({})", shown.symbol)))
@@ -51,4 +44,14 @@ pub fn figures(
         (stem.to_string(), figure)
     };
     INSTRUMENTS.into_iter().enumerate().map(figure).collect()
+}
+
+/// Title, motion, rate and seed in a line.
+pub fn conditions(scenario: &Scenario, study: &ImuStudy) -> String {
+    let motion = match study.motion {
+        Motion::ZeroTruth => "zero truth",
+        Motion::Static => "at rest",
+        Motion::RateTable(_) => "on a rate table",
+    };
+    format!("{}: {motion}, {} Hz, seed {}", scenario.title, study.imu.rate, scenario.seed)
 }

@@ -1,12 +1,15 @@
 //! The measurement study: what the errors of an IMU look like in its samples, beside what theory expects.
 
+mod allan;
 mod figures;
 mod normal;
 mod profile;
 mod statistics;
+#[cfg(test)]
+mod tests;
 mod theory;
 
-use schuler_imu::{Imu, Instrument, Sample, Stream};
+use schuler_imu::{Imu, Instrument, Sample, Stream, readout::Status};
 
 use crate::{
     Context, Error, Scenario,
@@ -38,8 +41,12 @@ pub fn run(scenario: &Scenario, study: &ImuStudy, context: &Context) -> Result<R
     };
     let mut measured = Table::new("imu", &measured_columns, &[]);
     let mut errors = Table::new("imu_errors", &columns::IMU_ERRORS, &[]);
+    let mut flags = Table::new("imu_flags", &columns::IMU_FLAGS, &[]);
+    let mut kept = allan::Errors::default();
+    let mut flagged = [[0u64; 6]; 2];
     let stride = scenario.output.every.map_or(1, |every| (every * study.imu.rate).round() as u64);
 
+    let read_out = study.imu.spec.readout.is_some();
     context.progress.begin("samples", study.samples);
     for k in 0..study.samples {
         let truth = profile.truth(k);
@@ -50,28 +57,69 @@ pub fn run(scenario: &Scenario, study: &ImuStudy, context: &Context) -> Result<R
                 statistics.add(error);
             }
         }
+        if study.allan {
+            kept.push([sample.omega_error, sample.f_error]);
+        }
+        let status = [sample.gyro, sample.accel].map(numbers);
+        for (flagged, flag) in flagged.as_flattened_mut().iter_mut().zip(status.as_flattened()) {
+            *flagged += u64::from(*flag);
+        }
         if (k + 1).is_multiple_of(stride) {
             let t = (k + 1) as f64 / study.imu.rate;
             measured.push(&row(t, measurement(&sample, scenario.output.imu)));
             errors.push(&row(t, [sample.omega_error, sample.f_error]));
+            if read_out {
+                let cells = status.as_flattened().iter().map(|flag| Cell::Number(f64::from(u8::from(*flag))));
+                flags.push(&std::iter::once(t.into()).chain(cells).collect::<Vec<_>>());
+            }
         }
         if (k + 1).is_multiple_of(REPORT) {
             context.progress.advance(REPORT);
         }
     }
 
-    let mut record = Record::new(scenario, summary(&statistics, &theory));
+    let mut record = Record::new(scenario, summary(&statistics, &theory, read_out));
     record.figures = figures::figures(scenario, study, &errors, &theory);
-    record.notes.push(
-        "Low and high bound what theory expects with 99 % probability each; of many numbers some lie outside by chance".into(),
-    );
+    record.notes.push(match read_out {
+        false => "Low and high bound what theory expects with 99 % probability each; of many numbers some lie outside by chance".into(),
+        true => "Expected is what theory says of the sum of the sources; the readout comes after it, so nothing is bounded".into(),
+    });
+    if read_out {
+        record.notes.push(counts(&flagged, study.samples));
+    }
     if study.motion == Motion::ZeroTruth {
         record.notes.push(
             "The true input is zero, so only biases act: scale factors and misalignments need a motion that excites them".into(),
         );
     }
     record.tables = vec![measured, errors];
+    if read_out {
+        record.tables.push(flags);
+    }
+    if study.allan {
+        let table =
+            allan::Theory::new(&study.imu.spec, &profile.truth(0), dt).table(&kept, study.samples, dt);
+        record.figures.extend(allan::figures(&table, &figures::conditions(scenario, study)));
+        record.tables.push(table);
+    }
     Ok(record)
+}
+
+/// Flags of a status in the order of the columns.
+fn numbers(status: Status) -> [bool; 6] {
+    let [x, y, z] = status.saturated;
+    [x, y, z, status.dropped, status.repeated, status.stuck]
+}
+
+/// How many samples the readout touched.
+fn counts(flagged: &[[u64; 6]; 2], samples: u64) -> String {
+    let of = |instrument: Instrument| {
+        let [x, y, z, dropped, repeated, stuck] = flagged[instrument as usize];
+        format!(
+            "{instrument}: saturated {x}, {y}, {z} (x, y, z), dropped {dropped}, repeated {repeated}, stuck {stuck}"
+        )
+    };
+    format!("Samples of {samples} that the readout flagged: {}", Instrument::ALL.map(of).join("; "))
 }
 
 fn measurement(sample: &Sample, content: Content) -> [[f64; 3]; 2] {
@@ -86,7 +134,8 @@ fn row(t: f64, [gyro, accel]: [[f64; 3]; 2]) -> [Cell<'static>; 7] {
 }
 
 /// Mean, standard deviation and extremes of the error per axis beside theory.
-fn summary(statistics: &[[Statistics; 3]; 2], theory: &Theory) -> Table {
+/// After a readout nothing is bounded.
+fn summary(statistics: &[[Statistics; 3]; 2], theory: &Theory, read_out: bool) -> Table {
     let names = ["axis", "quantity", "found", "expected", "low", "high", "unit", "inside"];
     let mut table = Table::new("summary", &names, &["axis", "quantity", "unit", "inside"]);
     for (i, instrument) in Instrument::ALL.into_iter().enumerate() {
@@ -95,6 +144,7 @@ fn summary(statistics: &[[Statistics; 3]; 2], theory: &Theory) -> Table {
             let (found, expected) = (&statistics[i][j], theory.expected(i, j));
             let name = format!("{instrument}.{axis}");
             let mut add = |quantity: &str, found: f64, [expected, low, high]: [f64; 3], unit: &str| {
+                let [low, high] = if read_out { [f64::NAN; 2] } else { [low, high] };
                 let inside = match () {
                     () if low.is_nan() => "-",
                     () if (low..=high).contains(&found) => "yes",

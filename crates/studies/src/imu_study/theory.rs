@@ -39,6 +39,9 @@ pub struct Theory {
     calibration: f64,
     k: u64,
     coefficients: Vec<(Component, Kind)>,
+    /// Truth of the sample before, and the column of each coefficient under it.
+    seen: Option<Truth>,
+    columns: Vec<[f64; 3]>,
     axes: [[Axis; 3]; 2],
 }
 
@@ -94,19 +97,28 @@ impl Theory {
             calibration: spec.calibration_temperature,
             k: 0,
             coefficients,
+            seen: None,
+            columns: Vec::new(),
             axes: [[Axis::default(); 3]; 2],
         }
     }
 
     /// One sample more.
     pub fn add(&mut self, truth: &Truth) {
-        let inputs = Instrument::ALL.map(|i| Input::new(i, truth, self.dt, self.calibration));
+        if self.seen != Some(*truth) {
+            let inputs = Instrument::ALL.map(|i| Input::new(i, truth, self.dt, self.calibration));
+            self.seen = Some(*truth);
+            self.columns.clear();
+            self.columns.extend(self.coefficients.iter().map(|(component, _)| {
+                let input = &inputs[component.instrument() as usize];
+                component.term().regressor(input).columns()[component.coefficient()]
+            }));
+        }
         let middle = (self.k as f64 + 0.5) * self.dt;
         let mut mu = [[0.0; 3]; 2];
         let mut white = [[0.0; 3]; 2];
-        for (component, kind) in &mut self.coefficients {
+        for ((component, kind), &g) in self.coefficients.iter_mut().zip(&self.columns) {
             let i = component.instrument() as usize;
-            let g = component.term().regressor(&inputs[i]).columns()[component.coefficient()];
             match kind {
                 // The interval mean of a first-degree polynomial is its value in the middle.
                 Kind::Known(polynomial) => (0..3).for_each(|j| mu[i][j] += g[j] * polynomial.at(middle)),
@@ -157,7 +169,11 @@ impl Theory {
         let none = f64::NAN;
         let mean = mean + a.first.unwrap_or(0.0);
         Expected {
-            mean: [mean, mean - Z99 * mean_sd, mean + Z99 * mean_sd],
+            // Where nothing is random there is nothing to bound.
+            mean: match a.white + variances > 0.0 {
+                true => [mean, mean - Z99 * mean_sd, mean + Z99 * mean_sd],
+                false => [mean, none, none],
+            },
             deviation: match bounded {
                 true => [deviation, deviation * (1.0 - half), deviation * (1.0 + half)],
                 false => [deviation, none, none],

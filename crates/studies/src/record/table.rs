@@ -191,6 +191,33 @@ pub mod columns {
     /// `imu_errors.csv`: measured minus true, means over the interval that ends at `t_s`.
     pub const IMU_ERRORS: [&str; 7] =
         ["t_s", "domega_x_radps", "domega_y_radps", "domega_z_radps", "df_x_mps2", "df_y_mps2", "df_z_mps2"];
+    /// `imu_flags.csv`: what the readout did to the sample that ends at `t_s`, 1 where it did.
+    pub const IMU_FLAGS: [&str; 13] = [
+        "t_s",
+        "gyro_saturated_x_count",
+        "gyro_saturated_y_count",
+        "gyro_saturated_z_count",
+        "gyro_dropped_count",
+        "gyro_repeated_count",
+        "gyro_stuck_count",
+        "accel_saturated_x_count",
+        "accel_saturated_y_count",
+        "accel_saturated_z_count",
+        "accel_dropped_count",
+        "accel_repeated_count",
+        "accel_stuck_count",
+    ];
+    /// `allan.csv`: Allan deviation of the IMU errors at the averaging time `t_s`.
+    pub const ALLAN: [&str; 8] = [
+        "t_s",
+        "source",
+        "adev_omega_x_radps",
+        "adev_omega_y_radps",
+        "adev_omega_z_radps",
+        "adev_f_x_mps2",
+        "adev_f_y_mps2",
+        "adev_f_z_mps2",
+    ];
     /// `log.csv`: what a recorded log says by itself, for the whole of it (`source` is `log`) and for its alignment
     /// window (`window`): end, number of samples, norms of mean rate and mean specific force, and their components.
     pub const LOG: [&str; 11] = [

@@ -8,10 +8,9 @@ use super::{
     document::{Document, NodeId, Spot},
     quantity::Range,
     recorded::content,
-    sources,
     valid::{
-        Align, Damping, Drift, Formats, Frame, Imu, ImuStudy, Mechanization, Motion, Navigate, Output,
-        RateTable, Scenario, Start, Study, Vertical,
+        Align, Damping, Drift, Formats, Frame, Mechanization, Navigate, Output, Scenario, Start, Study,
+        Vertical,
     },
     written::{self, StudyKind},
 };
@@ -58,13 +57,14 @@ impl Document {
             key.as_ref().map(|k| k.node)
         }
         use StudyKind::{Allan, Drift, Imu, Navigate};
-        let keys: [(Option<NodeId>, &[StudyKind]); 6] = [
+        let keys: [(Option<NodeId>, &[StudyKind]); 7] = [
             (node(&w.motion), &[Imu, Drift]),
             (node(&w.imu), &[Imu, Drift]),
             (node(&w.initial_errors), &[Drift]),
             (node(&w.mechanization), &[Drift, Navigate]),
             (node(&w.log), &[Navigate, Allan]),
             (node(&w.align), &[Navigate]),
+            (w.output.as_ref().and_then(|output| node(&output.value.allan)), &[Imu]),
         ];
         for (node, studies) in keys {
             if let Some(node) = node.filter(|_| !studies.contains(&w.study.value)) {
@@ -77,7 +77,7 @@ impl Document {
         Ok(())
     }
 
-    fn required<'w, T>(
+    pub(super) fn required<'w, T>(
         &self,
         key: &'w Option<T>,
         name: &str,
@@ -89,25 +89,6 @@ impl Document {
                 .expected(format!("`{name}` in a scenario of `study: {study}`"))
                 .example(example)
         })
-    }
-
-    fn imu_study(&self, w: &written::Scenario) -> Result<ImuStudy, Diagnostic> {
-        let motion = self.required(&w.motion, "motion", "imu", "motion: zero_truth")?;
-        let needs_start = !matches!(motion.value, written::Motion::ZeroTruth);
-        let start = match &w.start {
-            None if needs_start => Some(self.required_start(w, "imu")?),
-            start => start.as_ref().map(|s| self.start(s)).transpose()?,
-        };
-        let motion = match &motion.value {
-            written::Motion::ZeroTruth => Motion::ZeroTruth,
-            written::Motion::Static => Motion::Static,
-            written::Motion::RateTable(table) => Motion::RateTable(RateTable {
-                rate: self.quantity(&table.rate, Unit::RATE, Range::Positive)?,
-                tilt: self.quantity(&table.tilt, Unit::RADIAN, Range::Any)?,
-            }),
-        };
-        let imu = self.imu(self.required(&w.imu, "imu", "imu", "imu: { rate: 100 Hz }")?)?;
-        Ok(ImuStudy { motion, start, samples: self.samples(w, "imu", imu.rate)?, imu })
     }
 
     fn drift(&self, w: &written::Scenario) -> Result<Drift, Diagnostic> {
@@ -127,7 +108,9 @@ impl Document {
                 .expected("zero velocity")
                 .help("an error of the computed velocity belongs to `initial_errors: { velocity: […] }`"));
         }
-        let imu = self.imu(self.required(&w.imu, "imu", "drift", "imu: { rate: 100 Hz }")?)?;
+        let written = self.required(&w.imu, "imu", "drift", "imu: { rate: 100 Hz }")?;
+        let imu = self.imu(written)?;
+        self.linear_and_unchanging(&written.value)?;
         Ok(Drift {
             start,
             samples: self.samples(w, "drift", imu.rate)?,
@@ -171,18 +154,13 @@ impl Document {
         self.required(&w.log, "log", study, "log: { file: imu.csv, rate: 100 Hz, … }")
     }
 
-    fn required_start(&self, w: &written::Scenario, study: &str) -> Result<Start, Diagnostic> {
+    pub(super) fn required_start(&self, w: &written::Scenario, study: &str) -> Result<Start, Diagnostic> {
         let example = "start: { position: { lat: 45 deg, lon: 0 deg, h: 0 m } }";
         self.start(self.required(&w.start, "start", study, example)?)
     }
 
-    fn imu(&self, imu: &At<written::Imu>) -> Result<Imu, Diagnostic> {
-        let rate = self.quantity(&imu.value.rate, Unit::HERTZ, Range::Positive)?;
-        Ok(Imu { rate, spec: sources::spec(self, &imu.value.gyro, &imu.value.accel)? })
-    }
-
     /// A whole number of samples.
-    fn samples(&self, w: &written::Scenario, study: &str, rate: f64) -> Result<u64, Diagnostic> {
+    pub(super) fn samples(&self, w: &written::Scenario, study: &str, rate: f64) -> Result<u64, Diagnostic> {
         let duration = self.required(&w.duration, "duration", study, "duration: 24 h")?;
         let samples = self.quantity(duration, Unit::SECOND, Range::Positive)? * rate;
         let whole = samples.round();

@@ -45,7 +45,14 @@ impl Document {
     /// The unit of an output column of the study.
     fn quantity_unit(&self, quantity: &At<String>, study: StudyKind) -> Result<Unit, Diagnostic> {
         let known: Vec<&str> = match study {
-            StudyKind::Imu => [columns::IMU_ERRORS, columns::RATES, columns::INCREMENTS].concat(),
+            StudyKind::Imu => [
+                &columns::IMU_ERRORS[..],
+                &columns::RATES,
+                &columns::INCREMENTS,
+                &columns::IMU_FLAGS,
+                &columns::ALLAN,
+            ]
+            .concat(),
             StudyKind::Drift => columns::ERRORS.to_vec(),
             // Its results are statistics with intervals of their own.
             StudyKind::Allan => Vec::new(),

@@ -8,13 +8,17 @@ mod de;
 mod document;
 mod example;
 mod expect;
+mod imu_study;
+mod instrument;
 mod load;
 mod overrides;
 mod quantity;
+mod readout;
 mod recorded;
 mod schema;
 mod sources;
 mod start;
+mod temperature;
 #[cfg(test)]
 mod tests;
 mod valid;
@@ -24,5 +28,5 @@ pub use schema::json_schema;
 pub use sources::process_example;
 pub use valid::{
     Align, Damping, Drift, Expect, Formats, Frame, Imu, ImuStudy, Initial, Mechanization, Motion, Navigate,
-    Output, RateTable, Scenario, Start, Statistic, Study, Vertical,
+    Output, RateTable, Scenario, Start, Statistic, Study, Temperature, Vertical,
 };

@@ -43,14 +43,19 @@ impl Document {
     }
 
     /// One quantity in `unit` for all axes, or one each.
-    pub fn each_axis(&self, written: &At<OneOrMore>, unit: Unit) -> Result<[f64; 3], Diagnostic> {
+    pub fn each_axis(
+        &self,
+        written: &At<OneOrMore>,
+        unit: Unit,
+        range: Range,
+    ) -> Result<[f64; 3], Diagnostic> {
         match &written.value {
             OneOrMore::One(scalar) => {
-                Ok([self.scalar(written.node, scalar, unit, |found| found == unit, Range::Any)?; 3])
+                Ok([self.scalar(written.node, scalar, unit, |found| found == unit, range)?; 3])
             }
             OneOrMore::More(list) => {
                 let values: Vec<f64> =
-                    list.iter().map(|q| self.quantity(q, unit, Range::Any)).collect::<Result<_, _>>()?;
+                    list.iter().map(|q| self.quantity(q, unit, range)).collect::<Result<_, _>>()?;
                 values.try_into().map_err(|values: Vec<f64>| {
                     self.diagnostic(
                         Spot::Node(written.node),

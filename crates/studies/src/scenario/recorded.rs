@@ -49,8 +49,8 @@ impl Document {
                 accel: w.columns.accel.each_ref().map(column),
             },
             scale: Scale {
-                gyro: self.each_axis(&w.scale.gyro, Unit::RATE * per)?,
-                accel: self.each_axis(&w.scale.accel, Unit::FORCE * per)?,
+                gyro: self.each_axis(&w.scale.gyro, Unit::RATE * per, Range::Any)?,
+                accel: self.each_axis(&w.scale.accel, Unit::FORCE * per, Range::Any)?,
             },
             axes: w.axes.as_ref().map_or(Ok(AxisMap::IDENTITY), |axes| self.axes(axes))?,
             stationary: w.stationary.unwrap_or(false),

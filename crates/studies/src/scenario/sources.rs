@@ -13,16 +13,15 @@ use super::{
 };
 use crate::{Diagnostic, similar::similar, units};
 
-/// The sources of both instruments.
-pub fn spec(document: &Document, gyro: &Sources, accel: &Sources) -> Result<Spec, Diagnostic> {
-    let mut spec = Spec::new();
+/// Adds the sources of both instruments.
+pub fn add(document: &Document, spec: &mut Spec, gyro: &Sources, accel: &Sources) -> Result<(), Diagnostic> {
     for (instrument, sources) in [(Instrument::Gyro, gyro), (Instrument::Accel, accel)] {
         for &node in &sources.0 {
             let fault = |e: schuler_imu::Error| document.diagnostic(Spot::Node(node), e.to_string());
             spec.push(source(document, instrument, node)?).map_err(fault)?;
         }
     }
-    Ok(spec)
+    Ok(())
 }
 
 /// `term: { process: { parameter: quantity, … } }`.
@@ -177,7 +176,13 @@ fn one_key<'d>(
     }
 }
 
-fn unknown(document: &Document, spot: Spot, problem: &str, word: &str, known: &[&str]) -> Diagnostic {
+pub(super) fn unknown(
+    document: &Document,
+    spot: Spot,
+    problem: &str,
+    word: &str,
+    known: &[&str],
+) -> Diagnostic {
     let diagnostic = document.diagnostic(spot, problem).expected(one_of(known));
     match similar(word, known.iter().copied()) {
         Some(similar) => diagnostic.help(format!("did you mean `{similar}`?")),

@@ -27,7 +27,56 @@ expect:
 seed: 7
 ";
 
-/// Changes of the scenario above, each of which makes it wrong.
+const IMU: &str = "\
+schuler: 1
+study: imu
+title: A test
+start: { position: { lat: 45 deg, lon: 0 deg, h: 0 m } }
+motion: { rate_table: { rate: 30 deg/s, tilt: 30 deg, acceleration: 30 deg/s^2 } }
+duration: 60 s
+imu:
+  rate: 100 Hz
+  preset: stim300
+  temperature: { ramp: { start: 20 degC, rate: 1 K/min } }
+  readout:
+    gyro:
+      bandwidth: { natural_frequency: 200 Hz, damping: 0.7 }
+      sampling: point
+      range: 400 deg/s
+      lsb: { size: 0.1 arcsec, carry: true }
+    accel: { output: rates, faults: { drop: 1 % } }
+output: { formats: [csv] }
+";
+
+/// Changes of the second scenario, each of which makes it wrong.
+const IMU_FAULTS: &[(&str, &str)] = &[
+    ("stim300", "stim3000"),
+    ("20 degC", "-300 degC"),
+    ("20 degC", "20"),
+    ("20 degC", "20 s"),
+    (
+        "ramp: { start: 20 degC, rate: 1 K/min }",
+        "table: [[0 s, 20 degC], [2 min, 30 degC], [1 min, 40 degC]]",
+    ),
+    ("ramp: { start: 20 degC, rate: 1 K/min }", "table: []"),
+    ("ramp: { start: 20 degC, rate: 1 K/min }", "warmup: { start: 20 degC, end: 45 degC, tau: 10 min }"),
+    ("ramp: { start: 20 degC, rate: 1 K/min }", "warm_up: { start: 20 degC, end: 45 degC, tau: 0 s }"),
+    ("bandwidth: { natural_frequency: 200 Hz, damping: 0.7 }", "timing: { delay: 1 ms }"),
+    ("damping: 0.7", "damping: 0"),
+    ("range: 400 deg/s", "range: 4 g"),
+    ("range: 400 deg/s", "range: 1 deg/s\n      range_low: 2 deg/s"),
+    ("range: 400 deg/s", "range_low: 2 deg/s"),
+    ("size: 0.1 arcsec", "size: 0.1 deg/s"),
+    ("output: rates", "output: counts"),
+    ("drop: 1 %", "drop: 60 %, repeat: 60 %"),
+    ("drop: 1 %", "stick: 1 %"),
+    ("drop: 1 %", "drop: -1 %"),
+    ("30 deg/s^2", "3 deg/s^2"),
+    ("formats: [csv]", "formats: [csv], allan: true"),
+    ("study: imu", "study: drift"),
+];
+
+/// Changes of the first scenario, each of which makes it wrong.
 const FAULTS: &[(&str, &str)] = &[
     ("seed: 7", "sede: 7"),
     ("motion: static", "motion: statik"),
@@ -69,6 +118,9 @@ const FAULTS: &[(&str, &str)] = &[
     ("seed: 7", "seed: -7"),
     ("seed: 7", "seed: 7\nseed: 8"),
     ("seed: 7", "seed: [7"),
+    ("rate: 100 Hz", "rate: 100 Hz\n  readout: { gyro: { lsb: { size: 0.1 arcsec } } }"),
+    ("rate: 100 Hz", "rate: 100 Hz\n  temperature: { ramp: { start: 20 degC, rate: 1 K/min } }"),
+    ("every: 60 s", "every: 60 s, allan: true"),
     ("title: A test", "title: [A, test]"),
     (
         "title: A test",
@@ -94,9 +146,10 @@ fn load(text: &str, overrides: &[&str]) -> Result<Scenario, Error> {
 #[test]
 fn messages() {
     let mut found = String::new();
-    for (from, to) in FAULTS {
-        let text = DRIFT.replace(from, to);
-        assert_ne!(text, DRIFT, "{from} is not in the scenario");
+    let drift = FAULTS.iter().map(|fault| (DRIFT, fault));
+    for (base, (from, to)) in drift.chain(IMU_FAULTS.iter().map(|fault| (IMU, fault))) {
+        let text = base.replace(from, to);
+        assert_ne!(text, base, "{from} is not in the scenario");
         let error = load(&text, &[]).expect_err(to);
         found += &format!("== {from:?} -> {to:?}\n{error}\n");
     }
@@ -111,7 +164,10 @@ fn messages() {
         .map(|t| t.name())
         .collect();
     let processes: Vec<&str> = schuler_imu::PROCESSES.iter().map(|p| p.name()).collect();
-    for (words, name) in [(terms, "<terms of the instrument>"), (processes, "<processes>")] {
+    let presets: Vec<&str> = schuler_imu::preset::presets().map(|p| p.name).collect();
+    for (words, name) in
+        [(terms, "<terms of the instrument>"), (processes, "<processes>"), (presets, "<presets>")]
+    {
         found = found.replace(&super::de::one_of(&words), &format!("one of {name}"));
     }
     let expected = include_str!("messages.txt");
@@ -189,7 +245,7 @@ fn every_key_has_an_example() {
     keys.extend(root.keys());
     for (name, definition) in schema["$defs"].as_object().expect("definitions") {
         // Words of enumerations are listed by the message itself; sources have examples of their own.
-        if !matches!(name.as_str(), "Sources" | "RateTable" | "Damping") {
+        if !matches!(name.as_str(), "Sources" | "RateTable" | "Damping" | "Ramp") {
             keys.extend(definition["properties"].as_object().into_iter().flat_map(|p| p.keys()));
         }
     }

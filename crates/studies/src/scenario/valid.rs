@@ -85,6 +85,8 @@ pub struct ImuStudy {
     pub samples: u64,
     /// The instrument.
     pub imu: Imu,
+    /// Whether Allan deviations are wanted; only where the input does not change.
+    pub allan: bool,
 }
 
 /// `study: drift`.
@@ -150,6 +152,10 @@ pub struct RateTable {
     pub rate: f64,
     /// Tilt of the table axis from the vertical, rad.
     pub tilt: f64,
+    /// Angular acceleration of its starts and stops, rad/s², positive; infinite where they take no time.
+    pub acceleration: f64,
+    /// Root mean square of its vibration along x, y, z of the body, m/s².
+    pub vibration: [f64; 3],
 }
 
 /// An instrument: three gyros and three accelerometers along x, y, z of the body.
@@ -157,8 +163,47 @@ pub struct RateTable {
 pub struct Imu {
     /// Sample rate, Hz, positive.
     pub rate: f64,
-    /// Its error sources.
+    /// Its error sources, its readout and the temperature of its calibration.
     pub spec: Spec,
+    /// Temperature of the run; that of a [`schuler_imu::Truth`] that states none when absent.
+    pub temperature: Option<Temperature>,
+}
+
+/// Temperature of a run as a function of time; temperatures in K, times in s.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Temperature {
+    /// Always the same.
+    Constant(f64),
+    /// `start + rate t`.
+    Ramp {
+        /// Temperature at t = 0, K.
+        start: f64,
+        /// Rate, K/s.
+        rate: f64,
+    },
+    /// `end + (start - end) exp(-t/tau)`.
+    WarmUp {
+        /// Temperature at t = 0, K.
+        start: f64,
+        /// Temperature at last, K.
+        end: f64,
+        /// Time constant, s.
+        tau: f64,
+    },
+    /// Points (time, temperature), times increasing.
+    Table(Vec<(f64, f64)>),
+}
+
+impl Temperature {
+    /// The same as the error model takes it.
+    pub fn profile(&self) -> schuler_imu::Temperature<'_> {
+        match *self {
+            Temperature::Constant(value) => schuler_imu::Temperature::Constant(value),
+            Temperature::Ramp { start, rate } => schuler_imu::Temperature::Ramp { start, rate },
+            Temperature::WarmUp { start, end, tau } => schuler_imu::Temperature::WarmUp { start, end, tau },
+            Temperature::Table(ref points) => schuler_imu::Temperature::Table(points),
+        }
+    }
 }
 
 /// One component of the initial error of the computed state.

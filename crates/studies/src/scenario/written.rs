@@ -136,6 +136,10 @@ pub struct RateTable {
     pub rate: Quantity,
     /// Tilt of its axis from the vertical, towards north.
     pub tilt: Quantity,
+    /// Angular acceleration with which it starts and stops, `60 deg/s^2`; at once when absent.
+    pub acceleration: Option<Quantity>,
+    /// Root mean square of its vibration, one for all axes of the body or three; none when absent.
+    pub vibration: Option<At<OneOrThree>>,
 }
 
 /// Three gyros and three accelerometers along x, y, z of the body.
@@ -144,12 +148,142 @@ pub struct RateTable {
 pub struct Imu {
     /// Samples a second, `100 Hz`.
     pub rate: Quantity,
+    /// A device or grade whose error sources come before those below; `schuler presets` lists them.
+    pub preset: Option<At<String>>,
     /// Error sources of the gyros.
     #[serde(default)]
     pub gyro: Sources,
     /// Error sources of the accelerometers.
     #[serde(default)]
     pub accel: Sources,
+    /// Temperature of the run; 20 degC when absent.
+    pub temperature: Option<At<Temperature>>,
+    /// Temperature at which the thermal terms vanish; 20 degC when absent.
+    pub calibration_temperature: Option<Quantity>,
+    /// What happens to the sum of input and errors before it is a sample; nothing when absent.
+    pub readout: Option<At<Readout>>,
+}
+
+/// Temperature as a function of time. Temperatures are absolute, `35 degC` or `308.15 K`.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Temperature {
+    /// Always the same.
+    Constant(Quantity),
+    /// From `start` on at a constant rate.
+    Ramp(Ramp),
+    /// Exponentially from `start` to `end`.
+    WarmUp(WarmUp),
+    /// Points `[time, temperature]` with straight lines between them, constant outside of them.
+    Table(At<Vec<At<[Quantity; 2]>>>),
+}
+
+/// A temperature that changes at a constant rate.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Ramp {
+    /// Temperature at t = 0.
+    pub start: Quantity,
+    /// Rate, `1 K/min`.
+    pub rate: Quantity,
+}
+
+/// An exponential warm-up.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WarmUp {
+    /// Temperature at t = 0.
+    pub start: Quantity,
+    /// Temperature at last.
+    pub end: Quantity,
+    /// Time constant.
+    pub tau: Quantity,
+}
+
+/// Readout of both instruments.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Readout {
+    /// Of the gyros.
+    pub gyro: Option<At<Channel>>,
+    /// Of the accelerometers.
+    pub accel: Option<At<Channel>>,
+}
+
+/// Readout of one instrument, in this order: bandwidth, time of sampling, range, least significant bit, faults.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Channel {
+    /// Second-order low pass; unlimited when absent.
+    pub bandwidth: Option<At<Bandwidth>>,
+    /// Whether a sample is the mean over its interval or, with a bandwidth, the value at its end; `mean` when absent.
+    pub sampling: Option<At<Sampling>>,
+    /// When a sample is taken, against the time that it claims. Different delays make the instruments asynchronous.
+    pub timing: Option<At<Timing>>,
+    /// Largest input that is measured, `400 deg/s`, one for all axes or three; beyond it samples are clamped and flagged.
+    pub range: Option<At<OneOrThree>>,
+    /// Smallest input that is measured; minus the largest when absent.
+    pub range_low: Option<At<OneOrThree>>,
+    /// Rounding to a least significant bit.
+    pub lsb: Option<At<Lsb>>,
+    /// What the device puts out, and so what is rounded; `increments` when absent.
+    pub output: Option<At<Content>>,
+    /// Samples that get lost on the way.
+    pub faults: Option<At<Faults>>,
+}
+
+/// A second-order low pass.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Bandwidth {
+    /// Undamped natural frequency.
+    pub natural_frequency: Quantity,
+    /// Damping ratio; 0.7071 puts the -3 dB point at the natural frequency.
+    pub damping: Quantity,
+}
+
+/// What of its interval a sample is.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Sampling {
+    /// Mean over the interval.
+    Mean,
+    /// Value of the low pass at its end.
+    Point,
+}
+
+/// When a sample is taken.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Timing {
+    /// A sample of time t covers the interval that ended this much before; 0 s when absent.
+    pub delay: Option<Quantity>,
+    /// Standard deviation of the delay from sample to sample; 0 s when absent.
+    pub jitter: Option<Quantity>,
+}
+
+/// Rounding to a least significant bit.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Lsb {
+    /// Size, one for all axes or three: an angle and a velocity of increments, a rate and a specific force of rates.
+    pub size: At<OneOrThree>,
+    /// Whether the remainder is carried to the next sample; false when absent.
+    pub carry: Option<bool>,
+}
+
+/// Samples that get lost; probabilities are per sample and 0 when absent.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Faults {
+    /// Probability that a sample is lost: its increments are zero.
+    pub drop: Option<Quantity>,
+    /// Probability that the sample before comes once more instead.
+    pub repeat: Option<Quantity>,
+    /// Probability that the output gets stuck at the sample before.
+    pub stick: Option<Quantity>,
+    /// For how many samples it then is stuck.
+    pub stuck_samples: Option<At<u64>>,
 }
 
 /// Errors of the computed state at t = 0, computed minus true.
@@ -305,6 +439,8 @@ pub struct Output {
     pub formats: Option<At<Vec<At<Format>>>>,
     /// Form of `imu.csv`; `rates` when absent.
     pub imu: Option<Content>,
+    /// Whether the study `imu` draws Allan deviations of its errors beside those of theory; false when absent.
+    pub allan: Option<At<bool>>,
 }
 
 /// Kinds of files.

@@ -9,6 +9,8 @@ const KNOWN: &[(Unit, &str, &str)] = &[
     (Unit::ONE, "a pure number or a ratio", "100 ppm"),
     (Unit::RADIAN, "an angle", "10 arcsec"),
     (Unit::SECOND, "a time", "1 h"),
+    (Unit::KELVIN, "a temperature", "20 degC"),
+    (Unit::KELVIN.over(Unit::SECOND), "a temperature per time", "1 K/min"),
     (Unit::HERTZ, "a frequency", "100 Hz"),
     (Unit::METRE, "a length", "10 m"),
     (VELOCITY, "a velocity", "0.1 m/s"),

@@ -12,7 +12,7 @@ const VELOCITY: Unit = Unit::METRE.over(Unit::SECOND);
 
 /// Symbol, numerator and denominator of its factor to SI, unit. Two numbers, because 1/3600 is no `f64`.
 ///
-/// `degC` is a difference of temperature: no quantity of a scenario is an absolute one.
+/// `degC` is a difference of temperature; where a scenario states a temperature, the zero of the scale is added there.
 pub const SYMBOLS: &[(&str, f64, f64, Unit)] = &[
     ("1", 1.0, 1.0, Unit::ONE),
     ("%", 1.0, 100.0, Unit::ONE),
