@@ -25,7 +25,7 @@ impl Plain {
         }
     }
 
-    #[inline(never)]
+    #[inline]
     pub fn step(&mut self, increments: &Increments, dt: f64) {
         let dtheta = increments.dtheta.as_nalgebra();
         let dv = increments.dv.as_nalgebra();
@@ -43,7 +43,7 @@ impl Plain {
             + 3.0 * h * h / (wgs84::A * wgs84::A);
         let g = Vector3::new(0.0, 0.0, wgs84::GAMMA_E * (1.0 + wgs84::K * s * s) / root * height);
         let omega_ie = Vector3::new(wgs84::OMEGA * c, 0.0, -wgs84::OMEGA * s);
-        let transport = |v: &Vector3<f64>| Vector3::new(v.y / r_n, -v.x / r_m, -v.y * lat.tan() / r_n);
+        let transport = |v: &Vector3<f64>| Vector3::new(v.y / r_n, -v.x / r_m, -v.y * (s / c) / r_n);
 
         let mut v_mid = self.v;
         let mut change = dv_f;
