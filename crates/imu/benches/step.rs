@@ -12,9 +12,10 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rand_distr::{Distribution, StandardNormal};
 use schuler_imu::process::Form;
+use schuler_imu::readout::{Bandwidth, Channel, Faults, Lsb, Timing};
 use schuler_imu::{
-    Imu, Instrument, Motion, PROCESSES, Process, ProcessKind, Sample, Source, Spec, Stream, TERMS, Truth,
-    Value, process_kind,
+    Imu, Instrument, Motion, PROCESSES, Process, ProcessKind, Readout, Sample, Source, Spec, Stream, TERMS,
+    Truth, Value, process_kind,
 };
 
 const SAMPLES: usize = 4096;
@@ -118,6 +119,34 @@ fn core_set_with_rand_distr(bencher: Bencher<'_, '_>) {
 #[divan::bench]
 fn full_chain_sample(bencher: Bencher<'_, '_>) {
     samples(bencher, &full_chain());
+}
+
+/// With everything that a readout can do, on both instruments.
+#[divan::bench]
+fn full_chain_with_readout_sample(bencher: Bencher<'_, '_>) {
+    let channel = Channel {
+        bandwidth: Some(Bandwidth { natural_frequency: 200.0, damping: 0.7 }),
+        timing: Timing { delay: 0.004, jitter: 1e-5 },
+        range: Some([(-100.0, 100.0); 3]),
+        lsb: Some(Lsb { size: [1e-6; 3], carry: true }),
+        faults: Faults { drop: 1e-5, repeat: 1e-5, stick: 1e-5, stuck_samples: 3 },
+        ..Channel::default()
+    };
+    let mut spec = full_chain();
+    spec.readout = Some(Readout { gyro: channel, accel: channel });
+    samples(bencher, &spec);
+}
+
+/// The core set one call at a time, as in a closed loop.
+#[divan::bench]
+fn core_set_step(bencher: Bencher<'_, '_>) {
+    let mut imu = Imu::new(&core_set(), Stream { seed: 1, run: 0 }).expect("capacity");
+    let truth = Truth::rates([0.1, 0.2, 0.3], [1.0, 2.0, 9.8]);
+    bencher.counter(ItemsCount::new(SAMPLES)).bench_local(|| {
+        for _ in 0..SAMPLES {
+            black_box(imu.step(0.01, black_box(&truth)));
+        }
+    });
 }
 
 #[divan::bench(args = [18, 30])]

@@ -1,18 +1,13 @@
 //! The injector: true motion in, measured motion out.
 
-use core::ops::Range;
-
-use crate::bank::{Bank, MAX_FIRST, MAX_SECOND, MAX_WHITE};
+use crate::bank::{Bank, STEPS, row_of};
 use crate::error::Error;
-use crate::process::Shape;
 use crate::readout::{Chain, Status};
 use crate::sample::Sample;
 use crate::state::State;
-use crate::term::{Coefficients, MAX_COEFFICIENTS, Term};
-use crate::{Component, Input, Instrument, Motion, Source, Spec, Stream, TERMS, Truth};
-
-/// A term may stand on each instrument.
-const MAX_GROUPS: usize = 2 * TERMS.len();
+use crate::sums::Sums;
+use crate::term::TOGETHER;
+use crate::{Component, Input, Instrument, Motion, Spec, Stream, Truth};
 
 /// An IMU with its errors.
 ///
@@ -23,40 +18,17 @@ const MAX_GROUPS: usize = 2 * TERMS.len();
 pub struct Imu {
     spec: Spec,
     bank: Bank,
+    /// Its processes may be ahead of its step: see [`Bank::settle`].
     state: State,
-    /// Those of the gyroscopes, then those of the accelerometers.
-    groups: [Option<Group>; MAX_GROUPS],
-    ranges: [Range<usize>; 2],
-    /// Those of each instrument that are not all constant: they come last, when their sums are ready.
-    moving: [Range<usize>; 2],
-    /// Interval means of the coefficients of each group.
-    sums: [Coefficients; MAX_GROUPS],
-    /// Place of the coefficient that each moving part adds to: group times [`MAX_COEFFICIENTS`] plus
-    /// number of the coefficient.
-    targets: Targets,
-    input: Input,
+    sums: Sums,
+    /// What happened in the steps of the block, each in its row.
+    inputs: [Input; STEPS],
     chains: Option<[Chain; 2]>,
     /// Readout's part of the error of the last sample.
     readout_errors: [[f64; 3]; 2],
     dt: f64,
-    /// Whether there has been a step that the ledger can tell of.
-    stepped: bool,
-}
-
-/// The coefficients of one term on one instrument, summed over its sources.
-#[derive(Clone, Copy, Debug)]
-struct Group {
-    instrument: Instrument,
-    term: &'static dyn Term,
-    /// Sum of the constant ones.
-    base: Coefficients,
-}
-
-#[derive(Clone, Debug)]
-struct Targets {
-    white: ([u16; MAX_WHITE], usize),
-    first: ([u16; MAX_FIRST], usize),
-    second: ([u16; MAX_SECOND], usize),
+    /// Number of the step of the last sample, of which the ledger tells.
+    last: Option<u64>,
 }
 
 impl Imu {
@@ -70,34 +42,24 @@ impl Imu {
         }
         let mut bank = Bank::new(spec)?;
         let state = State::start(spec, bank.start(spec, stream.key()));
-        let mut imu = Imu {
+        Ok(Imu {
             spec: spec.clone(),
+            sums: Sums::new(spec, &bank),
             bank,
             state,
-            groups: [None; MAX_GROUPS],
-            ranges: [0..0, 0..0],
-            moving: [0..0, 0..0],
-            sums: [Coefficients::default(); MAX_GROUPS],
-            targets: Targets {
-                white: ([0; MAX_WHITE], 0),
-                first: ([0; MAX_FIRST], 0),
-                second: ([0; MAX_SECOND], 0),
-            },
-            input: Input::NONE,
+            inputs: [Input::NONE; STEPS],
             chains: spec.readout.map(|r| [Chain::new(r.gyro), Chain::new(r.accel)]),
             readout_errors: [[0.0; 3]; 2],
             dt: 0.0,
-            stepped: false,
-        };
-        imu.group();
-        Ok(imu)
+            last: None,
+        })
     }
 
     /// Starts again at t = 0 as another run of the same specification.
     pub fn restart(&mut self, stream: Stream) {
         self.state = State::start(&self.spec, self.bank.start(&self.spec, stream.key()));
-        self.stepped = false;
-        self.group();
+        self.sums = Sums::new(&self.spec, &self.bank);
+        self.last = None;
     }
 
     /// The next sample, over an interval of `dt` seconds in which `truth` happened.
@@ -106,70 +68,132 @@ impl Imu {
     /// happens and the sample is empty.
     pub fn step(&mut self, dt: f64, truth: &Truth) -> Sample {
         let mut sample = Sample::default();
-        self.step_into(dt, truth, &mut sample);
+        if self.set_step(dt) {
+            self.step_into(truth, &mut sample);
+        } else {
+            sample.dt = dt;
+        }
         sample
     }
 
     /// One sample of `samples` for each of `truths`, all over intervals of `dt` seconds; the shorter
     /// slice decides how many.
     pub fn steps(&mut self, dt: f64, truths: &[Truth], samples: &mut [Sample]) {
-        for (truth, sample) in truths.iter().zip(samples) {
-            self.step_into(dt, truth, sample);
-        }
-    }
-
-    /// The next sample, written in place: copies of it would cost as much as its random numbers.
-    #[inline]
-    fn step_into(&mut self, dt: f64, truth: &Truth, sample: &mut Sample) {
-        if !(dt > 0.0 && dt.is_finite()) {
-            *sample = Sample { dt, ..Sample::default() };
+        let n = truths.len().min(samples.len());
+        let (truths, samples) = (&truths[..n], &mut samples[..n]);
+        if !self.set_step(dt) {
+            samples.fill(Sample { dt, ..Sample::default() });
             return;
         }
-        if dt != self.dt {
+        let alone = (TOGETHER - row_of(self.state.step()) % TOGETHER) % TOGETHER;
+        let (first, truths) = truths.split_at(alone.min(n));
+        let (first_out, samples) = samples.split_at_mut(first.len());
+        let (fours, last) = truths.as_chunks();
+        let (fours_out, last_out) = samples.as_chunks_mut();
+        first.iter().zip(first_out).for_each(|(truth, sample)| self.step_into(truth, sample));
+        fours.iter().zip(fours_out).for_each(|(truths, samples)| self.steps_into(truths, samples));
+        last.iter().zip(last_out).for_each(|(truth, sample)| self.step_into(truth, sample));
+    }
+
+    /// Prepares for steps of `dt` seconds, if that makes sense.
+    #[inline]
+    fn set_step(&mut self, dt: f64) -> bool {
+        if dt != self.dt && dt > 0.0 && dt.is_finite() {
+            self.settle();
             self.bank.discretise(&self.spec, dt);
             self.chains.iter_mut().flatten().for_each(|c| c.discretise(dt));
             self.dt = dt;
         }
-        self.bank.advance(&mut self.state.bank);
-        self.input.see(truth, dt, self.spec.calibration_temperature);
-        self.stepped = true;
-        self.sum();
-        let omega_error = self.error(Instrument::Gyro);
-        let f_error = self.error(Instrument::Accel);
-        if self.chains.is_some() {
-            *sample = self.read_out(dt, [omega_error, f_error]);
-            return;
+        dt == self.dt && dt > 0.0
+    }
+
+    /// The next sample, written in place: copies of it would cost as much as its random numbers.
+    #[inline]
+    fn step_into(&mut self, truth: &Truth, sample: &mut Sample) {
+        let (step, row) = self.begin(1);
+        let input = &mut self.inputs[row];
+        input.see(truth, self.dt, self.spec.calibration_temperature);
+        input.turn_to(Instrument::Gyro);
+        let omega_error = self.sums.error(Instrument::Gyro, row, input);
+        input.turn_to(Instrument::Accel);
+        let f_error = self.sums.error(Instrument::Accel, row, input);
+        self.finish(step, truth, [&omega_error, &f_error], sample);
+    }
+
+    /// The next [`TOGETHER`] samples.
+    #[inline]
+    fn steps_into(&mut self, truths: &[Truth; TOGETHER], samples: &mut [Sample; TOGETHER]) {
+        let (step, row) = self.begin(TOGETHER);
+        let inputs = &mut self.inputs.as_chunks_mut().0[row / TOGETHER];
+        for (input, truth) in inputs.iter_mut().zip(truths) {
+            input.see(truth, self.dt, self.spec.calibration_temperature);
         }
-        let add = |increment: [f64; 3], error: [f64; 3]| [0, 1, 2].map(|i| increment[i] + error[i] * dt);
-        let scale = |mean: [f64; 3], error: [f64; 3]| [0, 1, 2].map(|i| (mean[i] + error[i]) * dt);
+        inputs.iter_mut().for_each(|input| input.turn_to(Instrument::Gyro));
+        let omega_errors = self.sums.errors(Instrument::Gyro, row, inputs);
+        inputs.iter_mut().for_each(|input| input.turn_to(Instrument::Accel));
+        let f_errors = self.sums.errors(Instrument::Accel, row, inputs);
+        for i in 0..TOGETHER {
+            self.finish(step + i as u64, &truths[i], [&omega_errors[i], &f_errors[i]], &mut samples[i]);
+        }
+    }
+
+    /// Takes the next `n` steps, which are in one block: number and row of the first.
+    #[inline]
+    fn begin(&mut self, n: usize) -> (u64, usize) {
+        let step = self.state.step();
+        if !self.bank.has(step) {
+            let rows = self.bank.prepare(&mut self.state.bank);
+            self.sums.add_up(&self.bank, rows);
+        }
+        self.state.bank.step += n as u64;
+        self.last = Some(self.state.step() - 1);
+        (step, row_of(step))
+    }
+
+    /// The sample of step `step` from the sources' errors.
+    #[inline(always)]
+    fn finish(&mut self, step: u64, truth: &Truth, errors: [&[f64; 3]; 2], sample: &mut Sample) {
+        if self.chains.is_some() {
+            return self.read_out(step, errors.map(|e| *e), sample);
+        }
+        let (dt, [&omega_error, &f_error]) = (self.dt, errors);
         (sample.dt, sample.omega_error, sample.f_error) = (dt, omega_error, f_error);
         (sample.dtheta, sample.dv) = match truth.motion {
-            Motion::Rates { omega, f } => (scale(omega, omega_error), scale(f, f_error)),
-            Motion::Increments { dtheta, dv } => (add(dtheta, omega_error), add(dv, f_error)),
+            Motion::Rates { omega, f } => (measured(omega, omega_error, dt), measured(f, f_error, dt)),
+            Motion::Increments { dtheta, dv } => (add(dtheta, omega_error, dt), add(dv, f_error, dt)),
         };
         (sample.gyro, sample.accel) = (Status::default(), Status::default());
     }
 
-    /// The sample that the readout makes of the input and the sources' errors.
-    fn read_out(&mut self, dt: f64, errors: [[f64; 3]; 2]) -> Sample {
+    /// The sample that the readout makes of the input and the sources' errors of step `step`.
+    fn read_out(&mut self, step: u64, errors: [[f64; 3]; 2], sample: &mut Sample) {
+        let dt = self.dt;
         let mut out = [([0.0; 3], Status::default()); 2];
         let mut total = errors;
         for (which, chain) in self.chains.iter().flatten().enumerate() {
             let instrument = Instrument::ALL[which];
-            let (u, e) = (self.input.of(instrument).u, errors[which]);
-            let normals = self.bank.readout_normals(&self.state.bank, instrument);
+            let (u, e) = (self.inputs[row_of(step)].of(instrument).u, errors[which]);
+            let normals = self.bank.readout_normals(step, instrument);
             let state = &mut self.state.readout[which];
             out[which] = chain.step(state, dt, [0, 1, 2].map(|i| u[i] + e[i]), normals);
             total[which] = [0, 1, 2].map(|i| out[which].0[i] / dt - u[i]);
             self.readout_errors[which] = [0, 1, 2].map(|i| total[which][i] - e[i]);
         }
         let [(dtheta, gyro), (dv, accel)] = out;
-        Sample { dt, dtheta, dv, omega_error: total[0], f_error: total[1], gyro, accel }
+        *sample = Sample { dt, dtheta, dv, omega_error: total[0], f_error: total[1], gyro, accel };
+    }
+
+    /// Goes back from what is prepared to where the last sample ended.
+    fn settle(&mut self) {
+        self.bank.settle(&mut self.state.bank);
+        self.bank.forget();
     }
 
     /// Everything that changes from step to step.
     pub fn save(&self) -> State {
-        self.state
+        let mut state = self.state;
+        self.bank.settle(&mut state.bank);
+        state
     }
 
     /// Goes back to a state saved from this IMU, or from one of the same specification and stream.
@@ -181,6 +205,7 @@ impl Imu {
             return Err(Error::ForeignState { reason: "its list of sources is another" });
         }
         self.state = *state;
+        self.bank.forget();
         Ok(())
     }
 
@@ -195,9 +220,10 @@ impl Imu {
     /// Empty before the first step.
     pub fn ledger(&self) -> impl Iterator<Item = (Component, [f64; 3])> {
         self.bank.places(&self.spec).filter_map(|(c, place)| {
-            let mean: f64 = self.bank.means.at(place).iter().sum();
-            let regressor = c.term().regressor(&self.input.of(c.instrument()));
-            self.stepped.then(|| (c, regressor.columns()[c.coefficient()].map(|g| g * mean)))
+            let step = self.last?;
+            let mean: f64 = self.bank.means(place, step).iter().sum();
+            let regressor = c.term().regressor(&self.inputs[row_of(step)].of(c.instrument()));
+            Some((c, regressor.columns()[c.coefficient()].map(|g| g * mean)))
         })
     }
 
@@ -206,95 +232,14 @@ impl Imu {
     pub fn readout_errors(&self) -> [[f64; 3]; 2] {
         self.readout_errors
     }
-
-    /// Sorts the coefficients by the term that they belong to.
-    fn group(&mut self) {
-        self.groups = [None; MAX_GROUPS];
-        for targets in [&mut self.targets.white.1, &mut self.targets.first.1, &mut self.targets.second.1] {
-            *targets = 0;
-        }
-        let constant = |s: &Source| s.components().all(|c| c.evolution().is_constant());
-        for instrument in Instrument::ALL {
-            let of = || self.spec.sources().filter(|s| s.instrument() == instrument);
-            let moves = |s: &Source| of().any(|o| o.term() == s.term() && !constant(o));
-            let mut bounds = [self.groups.iter().flatten().count(); 3];
-            for (bound, moving) in bounds[1..].iter_mut().zip([false, true]) {
-                for source in of().filter(|s| moves(s) == moving) {
-                    group_of(&mut self.groups, instrument, source.term());
-                }
-                *bound = self.groups.iter().flatten().count();
-            }
-            self.ranges[instrument as usize] = bounds[0]..bounds[2];
-            self.moving[instrument as usize] = bounds[1]..bounds[2];
-        }
-        for (c, place) in self.bank.places(&self.spec) {
-            let group = group_of(&mut self.groups, c.instrument(), c.term());
-            let target = (group * MAX_COEFFICIENTS + c.coefficient()) as u16;
-            let (list, len) = match place.shape {
-                Shape::Constant => {
-                    if let Some(group) = &mut self.groups[group] {
-                        group.base[c.coefficient()] += self.bank.means.constant[place.first];
-                    }
-                    continue;
-                }
-                Shape::White => (&mut self.targets.white.0[..], &mut self.targets.white.1),
-                Shape::First => (&mut self.targets.first.0[..], &mut self.targets.first.1),
-                Shape::Second | Shape::Free => (&mut self.targets.second.0[..], &mut self.targets.second.1),
-            };
-            list[place.first..place.first + place.count].fill(target);
-            *len = (*len).max(place.first + place.count);
-        }
-        for (sum, group) in self.sums.iter_mut().zip(self.groups.iter().flatten()) {
-            *sum = group.base;
-        }
-    }
-
-    /// Sums the interval means of the coefficients over their sources.
-    fn sum(&mut self) {
-        for range in &self.moving {
-            for (sum, group) in
-                self.sums[range.clone()].iter_mut().zip(self.groups[range.clone()].iter().flatten())
-            {
-                *sum = group.base;
-            }
-        }
-        let flat = self.sums.as_flattened_mut();
-        let (t, means) = (&self.targets, &self.bank.means);
-        add_to(flat, &t.white.0[..t.white.1], &means.white);
-        add_to(flat, &t.first.0[..t.first.1], &means.first);
-        add_to(flat, &t.second.0[..t.second.1], &means.second);
-    }
-
-    /// Output error of an instrument.
-    #[inline]
-    fn error(&mut self, instrument: Instrument) -> [f64; 3] {
-        self.input.turn_to(instrument);
-        let range = self.ranges[instrument as usize].clone();
-        let mut error = [0.0; 3];
-        for (sum, group) in self.sums[range.clone()].iter().zip(self.groups[range].iter().flatten()) {
-            group.term.add_output(&self.input, sum, &mut error);
-        }
-        error
-    }
 }
 
-fn add_to(sums: &mut [f64], targets: &[u16], means: &[f64]) {
-    for (target, mean) in targets.iter().zip(means) {
-        sums[usize::from(*target)] += mean;
-    }
+/// Increment over `dt` of a mean with its error.
+fn measured(mean: [f64; 3], error: [f64; 3], dt: f64) -> [f64; 3] {
+    [0, 1, 2].map(|i| (mean[i] + error[i]) * dt)
 }
 
-/// Number of the group of `term` on `instrument`, which is made where it does not exist.
-fn group_of(
-    groups: &mut [Option<Group>; MAX_GROUPS],
-    instrument: Instrument,
-    term: &'static dyn Term,
-) -> usize {
-    let found = groups.iter().position(|g| match g {
-        Some(g) => g.instrument == instrument && g.term == term,
-        None => true,
-    });
-    let i = found.expect("invariant: there is a group for every term on every instrument");
-    groups[i].get_or_insert(Group { instrument, term, base: Coefficients::default() });
-    i
+/// An increment over `dt` with its error.
+fn add(increment: [f64; 3], error: [f64; 3], dt: f64) -> [f64; 3] {
+    [0, 1, 2].map(|i| increment[i] + error[i] * dt)
 }

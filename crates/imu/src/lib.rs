@@ -33,6 +33,7 @@ mod sample;
 mod source;
 mod spec;
 mod state;
+mod sums;
 mod temperature;
 pub mod term;
 mod truth;

@@ -28,6 +28,13 @@ impl Step {
         }
     }
 
+    /// Noise of state 0 or 1, or of the mean (2), from three normals.
+    #[inline]
+    pub(crate) fn noise_of(&self, row: usize, w: [f64; 3]) -> f64 {
+        let n = &self.noise[row];
+        n[0] * w[0] + n[1] * w[1] + n[2] * w[2]
+    }
+
     /// Moves the states `x` without noise and returns the interval mean.
     #[inline]
     pub(crate) fn coast(&self, x: &mut [f64; 2]) -> f64 {

@@ -72,6 +72,9 @@ const PRODUCTS: &[&str] = &["x_yz", "x_zx", "x_xy", "y_yz", "y_zx", "y_xy", "z_y
 /// The coefficients of a term, the first [`Term::len`] in use and the others zero.
 pub type Coefficients = [f64; MAX_COEFFICIENTS];
 
+/// Steps that [`Term::add_outputs`] takes together.
+pub const TOGETHER: usize = 4;
+
 /// An error term: linear in its coefficients, possibly non-linear in the input.
 pub trait Term: Sync {
     /// Name in files and column headers, `scale_factor`.
@@ -107,6 +110,19 @@ pub trait Term: Sync {
     fn add_output(&self, input: &Input, c: &Coefficients, sum: &mut [f64; 3]) {
         let [x, y, z] = self.output(input, c);
         *sum = [sum[0] + x, sum[1] + y, sum[2] + z];
+    }
+
+    /// Adds the output errors of several steps, each with its own coefficients, to `sums`: one call
+    /// for all of them.
+    fn add_outputs(
+        &self,
+        inputs: &[Input; TOGETHER],
+        c: &[Coefficients; TOGETHER],
+        sums: &mut [[f64; 3]; TOGETHER],
+    ) {
+        for i in 0..TOGETHER {
+            self.add_output(&inputs[i], &c[i], &mut sums[i]);
+        }
     }
 
     /// Number of coefficients.
