@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde::{Serialize, Serializer, ser::SerializeMap};
 
-use super::{Cell, Header, Record, Table, Verdict};
+use super::{Cell, Header, Record, Table, Verdict, columns};
 
 #[derive(Serialize)]
 struct Summary<'a> {
@@ -32,7 +32,11 @@ impl Serialize for Row<'_> {
         let mut map = serializer.serialize_map(Some(table.columns.len()))?;
         for column in &table.columns {
             match column.cell(*row) {
-                Cell::Number(value) => map.serialize_entry(column.name(), &value)?,
+                Cell::Number(value) if value.is_finite() && columns::is_count(column.name()) => {
+                    map.serialize_entry(column.name(), &(value as u64))?
+                }
+                // A sum with 0 has no negative zero.
+                Cell::Number(value) => map.serialize_entry(column.name(), &(value + 0.0))?,
                 Cell::Word(word) => map.serialize_entry(column.name(), word)?,
             }
         }
@@ -86,6 +90,7 @@ impl Table {
             .iter()
             .map(|column| {
                 let show = |row| match column.cell(row) {
+                    Cell::Number(x) if x.is_finite() && columns::is_count(column.name()) => format!("{x:.0}"),
                     Cell::Number(x) => number(x),
                     Cell::Word(word) => word.into(),
                 };

@@ -49,7 +49,7 @@ fn verdicts() {
 #[test]
 fn csv_reads_back() {
     let mut table = Table::new("t", &["source", "x"], &["source"]);
-    let values = [1.0 / 3.0, 1e-300, -0.0, 1e17, f64::MIN_POSITIVE, f64::NAN];
+    let values = [1.0 / 3.0, 1e-300, 0.0, 1e17, f64::MIN_POSITIVE, f64::NAN];
     for value in values {
         table.push(&["a \"b\", c".into(), Cell::Number(value)]);
     }
@@ -65,6 +65,22 @@ fn csv_reads_back() {
             _ => assert_eq!(number.parse::<f64>().map(f64::to_bits), Ok(value.to_bits())),
         }
     }
+}
+
+/// A negative zero is rounding and no direction; samples are counted in whole numbers.
+#[test]
+fn zero_has_no_sign_and_a_count_no_decimals() {
+    let mut table = Table::new("t", &["x_m", "samples_count"], &[]);
+    table.push(&[Cell::Number(-0.0), 184_718.0.into()]);
+    table.push(&[Cell::Number(-0.5), 12_345_678.0.into()]);
+    let mut csv = Vec::new();
+    table.write_csv(&mut csv).expect("a vector takes all");
+    assert_eq!(String::from_utf8(csv).expect("UTF-8"), "x_m,samples_count\n0.0,184718\n-0.5,12345678\n");
+    assert!(table.text().contains("12345678"), "{}", table.text());
+    let (_, mut record) = record();
+    record.summary = table;
+    let json = record.summary_json(&[]);
+    assert!(json.contains("\"x_m\": 0.0,") && json.contains("\"samples_count\": 184718\n"), "{json}");
 }
 
 #[test]
