@@ -1,6 +1,6 @@
 //! `summary.json`, and the summary for the terminal.
 
-use std::fmt::Write;
+use std::fmt::{self, Display, Formatter, Write};
 
 use serde::{Serialize, Serializer, ser::SerializeMap};
 
@@ -71,13 +71,24 @@ impl Record {
         if !self.verdicts.is_empty() {
             text.push('\n');
         }
-        for Verdict { what, expected, tolerance, found, holds } in &self.verdicts {
-            let word = if *holds { "holds" } else { "FAILS" };
-            let [expected, found] = [expected, found].map(|x| digits(*x, *tolerance));
-            let tolerance = number(*tolerance);
-            let _ = writeln!(text, "expect {word}: {what} is {found}, expected {expected} ± {tolerance}");
+        for verdict in &self.verdicts {
+            let word = if verdict.holds { "holds" } else { "FAILS" };
+            let _ = writeln!(text, "expect {word}: {verdict}");
         }
         text
+    }
+}
+
+/// What was compared, what it is and what was expected; or why it is not there.
+impl Display for Verdict {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Verdict { what, expected, tolerance, found, not_found, .. } = self;
+        let expected = digits(*expected, *tolerance);
+        let end = format!("expected {expected} ± {}", number(*tolerance));
+        match not_found {
+            Some(reason) => write!(f, "{what} is not found ({end}): {reason}"),
+            None => write!(f, "{what} is {}, {end}", digits(*found, *tolerance)),
+        }
     }
 }
 

@@ -1,7 +1,10 @@
 use std::fs;
 
 use super::{Cell, Folder, Record, Table};
-use crate::{Error, Scenario, figure};
+use crate::{
+    Error, Scenario, figure,
+    scenario::{Expect, Statistic},
+};
 
 const SCENARIO: &str = "\
 schuler: 1
@@ -44,6 +47,70 @@ fn verdicts() {
     assert_eq!(holds, [true, true, true, false, false], "{:#?}", record.verdicts);
     assert!(record.verdicts[4].found.is_nan());
     assert!(!record.holds());
+}
+
+/// An `expect` that speaks of nothing fails, and says what there is to speak of.
+#[test]
+fn what_is_not_found_is_said() {
+    let (scenario, mut record) = record();
+    let mut table = Table::new("errors", &["t_s", "source", "way", "dn_m"], &["source", "way"]);
+    table.push(&[60.0.into(), "gyro.bias.constant.x".into(), "nonlinear".into(), 1.0.into()]);
+    table.push(&[60.0.into(), "all".into(), "linear".into(), 1.0.into()]);
+    record.tables.push(table);
+    let mut reason = |quantity: &str, source: Option<&str>, way: Option<&str>, at: Statistic| {
+        let mut scenario = scenario.clone();
+        let expect = Expect {
+            quantity: quantity.into(),
+            source: source.map(Into::into),
+            way: way.map(Into::into),
+            at,
+            value: 1.0,
+            tolerance: 1.0,
+        };
+        scenario.expect = vec![expect];
+        record.judge(&scenario);
+        assert!(!record.holds());
+        let reason = record.verdicts[0].not_found.clone().expect("a reason");
+        let json: serde_json::Value = serde_json::from_str(&record.summary_json(&[])).expect("JSON");
+        assert_eq!(json["expect"][0]["not_found"], reason.as_str());
+        let text = record.summary_text();
+        assert!(
+            text.contains("is not found (expected 1.0000 ± 1.0000): ") && text.contains(&reason),
+            "{text}"
+        );
+        reason
+    };
+    let rate = "omega_x_radps";
+    assert_eq!(
+        reason(rate, None, None, Statistic::Time(0.6)),
+        "there is no row at 0.6 s; the nearest are at 0.5 s and 0.75 s"
+    );
+    assert_eq!(reason(rate, None, None, Statistic::Time(2.0)), "there is no row at 2 s; the last is at 1 s");
+    assert_eq!(
+        reason(rate, None, None, Statistic::Time(0.0)),
+        "there is no row at 0 s; the first is at 0.25 s"
+    );
+    assert_eq!(
+        reason(rate, Some("all"), None, Statistic::Final),
+        "the rows of `imu` have no source: leave `source` out"
+    );
+    assert_eq!(
+        reason("omega_y_radps", None, None, Statistic::Final),
+        "this run has no column `omega_y_radps`; there are `omega_x_radps`, `dn_m`; did you mean `omega_x_radps`?"
+    );
+    assert_eq!(
+        reason("dn_m", Some("gyro.bias.constnat.x"), None, Statistic::Final),
+        "there is no source `gyro.bias.constnat.x`; there are `gyro.bias.constant.x`, `all`; did you mean \
+         `gyro.bias.constant.x`?"
+    );
+    assert_eq!(
+        reason("dn_m", Some("all"), Some("exact"), Statistic::Final),
+        "there is no way `exact` of source `all`; there is `linear`"
+    );
+    assert_eq!(
+        reason("dn_m", Some("all"), None, Statistic::Deviation),
+        "a standard deviation needs two rows; there is one"
+    );
 }
 
 #[test]
