@@ -97,8 +97,12 @@ fn bad_input_is_2_and_leaves_nothing() {
     bad(&["run", "a.yaml", "--set", "duration=0 s"], "duration: must be more than zero");
     bad(&["run", "a.yaml", "--set", "nonsense"], "there is no `=`");
     bad(&["run", "missing.yaml"], "cannot read missing.yaml");
-    bad(&["run", "a.yaml", "--out", "a.yaml"], "cannot write a.yaml");
-    bad(&["run", "a.yaml", "--out", "a.yaml/below"], "cannot write a.yaml/below");
+    bad(&["run", "a.yaml", "--out", "a.yaml"], "a.yaml: cannot write the results here");
+    bad(&["run", "a.yaml", "--out", "a.yaml/below"], "a.yaml/below: cannot write the results here");
+    bad(&["run", "a.yaml", "--out", "a.yaml/below"], "help: choose another folder with --out DIR");
+    // Where not even root can make a folder.
+    #[cfg(target_os = "linux")]
+    bad(&["run", "a.yaml", "--out", "/proc/schuler/a"], "/proc/schuler/a: cannot write the results here");
     bad(&["run"], "Usage");
     bad(&["walk"], "unrecognized subcommand");
     fs::write(place.0.join("b.yaml"), SCENARIO.replace("1 deg/h } }", "1 dge/h } }")).expect("a scenario");

@@ -171,16 +171,39 @@ fn a_folder_is_whole_or_not_there() {
     let beside = |path: &std::path::Path| fs::read_dir(path).expect("a folder").count();
     assert_eq!(beside(&base.join("deep")), 1);
 
-    // Somebody's own file stays.
-    fs::write(path.join("notes.txt"), "mine").expect("written");
-    assert!(matches!(Folder::check(&path), Err(Error::Write { .. })));
+    // Somebody's own files stay, whatever they are called.
+    for name in ["notes.txt", "mine.csv", "sources.yaml", "figures/mine.png", "figures/deep"] {
+        match name {
+            "figures/deep" => fs::create_dir(path.join(name)).expect("made"),
+            _ => fs::write(path.join(name), "mine").expect("written"),
+        }
+        let message = Folder::check(&path).expect_err(name).to_string();
+        assert!(message.contains(&format!("found: `{name}`")), "{message}");
+        assert!(message.contains("expected: a new folder") && message.contains("--out DIR"), "{message}");
+        match name {
+            "figures/deep" => fs::remove_dir(path.join(name)).expect("still there"),
+            _ => fs::remove_file(path.join(name)).expect("still there"),
+        }
+    }
+    // One that comes while the study runs stays too, and so does the earlier result.
+    let folder = Folder::check(&path).expect("a place");
+    fs::write(path.join("late.csv"), "mine").expect("written");
+    assert!(matches!(folder.write(&record, scenario.output.formats), Err(Error::Input(_))));
+    assert_eq!(fs::read_to_string(path.join("late.csv")).expect("still there"), "mine");
+    assert!(path.join("imu.csv").is_file());
+    assert_eq!(beside(&base.join("deep")), 1);
+    // A summary that is none of ours lists nothing.
+    let foreign = base.join("deep/foreign");
+    fs::create_dir(&foreign).expect("made");
+    fs::write(foreign.join("summary.json"), "{}").expect("written");
+    assert!(matches!(Folder::check(&foreign), Err(Error::Input(_))));
     // A file is no folder, and nothing can be made below it.
-    assert!(matches!(Folder::check(path.join("notes.txt")), Err(Error::Write { .. })));
-    assert!(matches!(Folder::check(path.join("notes.txt/run")), Err(Error::Write { .. })));
+    assert!(matches!(Folder::check(path.join("late.csv")), Err(Error::Input(_))));
+    assert!(matches!(Folder::check(path.join("late.csv/run")), Err(Error::Input(_))));
     // A record that cannot be written leaves what was there.
     let mut broken = record.clone();
     broken.tables[0].name = "no/such/folder".into();
-    let other = Folder::check(base.join("other")).expect("a place");
+    let other = Folder::check(base.join("other/below")).expect("a place");
     assert!(other.write(&broken, scenario.output.formats).is_err());
     assert_eq!(beside(&base), 1);
     fs::remove_dir_all(&base).expect("removed");
