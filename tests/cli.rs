@@ -111,6 +111,22 @@ fn bad_input_is_2_and_leaves_nothing() {
     bad(&["check", "b.yaml"], "--> b.yaml:6:58");
 }
 
+#[test]
+fn two_scenarios_of_one_name_are_refused() {
+    let place = Place::new("names");
+    fs::create_dir(place.0.join("other.yaml")).expect("a folder");
+    fs::write(place.0.join("other.yaml/a.yaml"), SCENARIO).expect("a scenario");
+    for arguments in [&["run", "a.yaml", "other.yaml/a.yaml"][..], &["run", "a.yaml", "a.yaml", "--out", "b"]]
+    {
+        let output = place.schuler(arguments);
+        let error = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{error}");
+        assert!(error.contains(arguments[2]) && error.contains("those of a.yaml"), "{error}");
+        assert!(error.contains("--out DIR"), "{error}");
+        assert_eq!(place.left(), Vec::<PathBuf>::new());
+    }
+}
+
 /// The message points at the place in the line.
 #[test]
 fn a_message_shows_the_line() {
