@@ -2,4 +2,5 @@
 
 mod cli;
 mod configs;
+mod recorded;
 mod schema;
