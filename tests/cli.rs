@@ -97,14 +97,34 @@ fn bad_input_is_2_and_leaves_nothing() {
     bad(&["run", "a.yaml", "--set", "duration=0 s"], "duration: must be more than zero");
     bad(&["run", "a.yaml", "--set", "nonsense"], "there is no `=`");
     bad(&["run", "missing.yaml"], "cannot read missing.yaml");
-    bad(&["run", "a.yaml", "--out", "a.yaml"], "cannot write a.yaml");
-    bad(&["run", "a.yaml", "--out", "a.yaml/below"], "cannot write a.yaml/below");
+    bad(&["run", "a.yaml", "--out", "a.yaml"], "a.yaml: cannot write the results here");
+    bad(&["run", "a.yaml", "--out", "a.yaml/below"], "a.yaml/below: cannot write the results here");
+    bad(&["run", "a.yaml", "--out", "a.yaml/below"], "help: choose another folder with --out DIR");
+    // Where not even root can make a folder.
+    #[cfg(target_os = "linux")]
+    bad(&["run", "a.yaml", "--out", "/proc/schuler/a"], "/proc/schuler/a: cannot write the results here");
     bad(&["run"], "Usage");
     bad(&["walk"], "unrecognized subcommand");
     fs::write(place.0.join("b.yaml"), SCENARIO.replace("1 deg/h } }", "1 dge/h } }")).expect("a scenario");
     // One bad scenario among good ones: nothing runs.
     bad(&["run", "a.yaml", "b.yaml"], "unknown unit `dge`");
     bad(&["check", "b.yaml"], "--> b.yaml:6:58");
+}
+
+#[test]
+fn two_scenarios_of_one_name_are_refused() {
+    let place = Place::new("names");
+    fs::create_dir(place.0.join("other.yaml")).expect("a folder");
+    fs::write(place.0.join("other.yaml/a.yaml"), SCENARIO).expect("a scenario");
+    for arguments in [&["run", "a.yaml", "other.yaml/a.yaml"][..], &["run", "a.yaml", "a.yaml", "--out", "b"]]
+    {
+        let output = place.schuler(arguments);
+        let error = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{error}");
+        assert!(error.contains(arguments[2]) && error.contains("those of a.yaml"), "{error}");
+        assert!(error.contains("--out DIR"), "{error}");
+        assert_eq!(place.left(), Vec::<PathBuf>::new());
+    }
 }
 
 /// The message points at the place in the line.

@@ -5,16 +5,11 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use crate::recorded;
 use schuler::studies::{Context, Scenario, Silent, run, scenario::Study};
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
-/// Folder of recorded logs, if this machine has them.
-fn data() -> Option<PathBuf> {
-    let named = std::env::var_os("SCHULER_DATA").map(PathBuf::from);
-    named.into_iter().chain([root().join("../shared/data")]).find(|path| path.is_dir())
 }
 
 #[test]
@@ -24,7 +19,7 @@ fn every_config_runs_and_its_expect_holds() {
         .map(|entry| entry.expect("an entry").path())
         .collect();
     files.sort();
-    let data = data();
+    let data = recorded::folder(root());
     let mut failures = String::new();
     for file in files.iter().filter(|file| file.extension().is_some_and(|e| e == "yaml")) {
         let name = file.strip_prefix(root()).unwrap_or(file).display();
@@ -38,12 +33,13 @@ fn every_config_runs_and_its_expect_holds() {
         if scenario.expect.is_empty() {
             failures += &format!("{name} expects nothing\n");
         }
-        let beside = match &scenario.study {
-            Study::Navigate(navigate) => file.with_file_name(&navigate.log.file).is_file(),
-            _ => true,
+        let log = match &scenario.study {
+            Study::Navigate(navigate) => Some(&navigate.log.file),
+            Study::Allan(log) => Some(&log.file),
+            Study::Imu(_) | Study::Drift(_) => None,
         };
-        if !beside && data.is_none() {
-            println!("skipped {name}: set SCHULER_DATA to the folder of recorded logs");
+        if data.is_none() && log.is_some_and(|log| !file.with_file_name(log).is_file()) {
+            recorded::skipped(&name.to_string());
             continue;
         }
         match run(&scenario, &Context { data: data.clone(), progress: &Silent }) {

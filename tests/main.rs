@@ -2,5 +2,6 @@
 
 mod cli;
 mod configs;
+mod recorded;
 mod schema;
 mod tables;

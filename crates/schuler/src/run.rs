@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use schuler_studies::{Context, Error, Record, Scenario, record::Folder, run as run_study};
+use schuler_studies::{Context, Diagnostic, Error, Record, Scenario, record::Folder, run as run_study};
 
 use crate::{
     End,
@@ -33,6 +33,10 @@ pub fn check(args: &ScenarioArgs) -> io::Result<End> {
 
 /// Runs scenarios. All are checked before the first one runs.
 pub fn run(args: &RunArgs) -> io::Result<End> {
+    if let Some(clash) = clash(args) {
+        report(&clash.into())?;
+        return Ok(End::BadInput);
+    }
     let mut jobs = Vec::new();
     for file in &args.scenarios.files {
         let job = Scenario::from_file(file, &args.scenarios.overrides())
@@ -60,14 +64,7 @@ pub fn run(args: &RunArgs) -> io::Result<End> {
         if !record.holds() {
             let failed = record.verdicts.iter().filter(|v| !v.holds);
             for verdict in failed {
-                writeln!(
-                    io::stderr(),
-                    "expect failed: {} is {}, expected {} ± {}",
-                    verdict.what,
-                    verdict.found,
-                    verdict.expected,
-                    verdict.tolerance
-                )?;
+                writeln!(io::stderr(), "expect failed: {verdict}")?;
             }
             end = End::ExpectFailed;
         }
@@ -103,4 +100,19 @@ fn out(args: &RunArgs, file: &Path) -> PathBuf {
         Some(out) => out.join(stem),
         None => Path::new("out").join(stem),
     }
+}
+
+/// Two scenarios whose results would go into one folder, where the second would take the place of the first.
+fn clash(args: &RunArgs) -> Option<Diagnostic> {
+    let files = &args.scenarios.files;
+    files.iter().enumerate().find_map(|(k, file)| {
+        let folder = out(args, file);
+        let first = files[..k].iter().find(|first| out(args, first) == folder)?;
+        let problem = format!("its results would take the place of those of {}", first.display());
+        let diagnostic = Diagnostic::new(file, problem)
+            .expected("scenarios of different file names: each name is the name of a folder")
+            .found(format!("{} for both", folder.display()))
+            .help("run them one by one, each with a folder of its own: --out DIR");
+        Some(diagnostic)
+    })
 }

@@ -11,6 +11,9 @@ pub mod log;
 pub mod navigate;
 mod progress;
 pub mod record;
+#[cfg(test)]
+#[path = "../../../tests/recorded.rs"]
+mod recorded;
 mod run;
 pub mod scenario;
 mod similar;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::record::Table;
-use crate::{Context, Error, Record, Scenario, Silent};
+use crate::{Context, Error, Record, Scenario, Silent, recorded};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
@@ -101,8 +101,8 @@ fn a_log_that_does_not_fit_is_refused() {
 /// 14.853 deg/h over the whole, as measured by others.
 #[test]
 fn the_ring_laser_log_is_read_whole() {
-    let Some(data) = std::env::var_os("SCHULER_DATA").map(PathBuf::from) else {
-        eprintln!("skipped: SCHULER_DATA does not name the folder of the ring-laser log");
+    let Some(data) = recorded::folder(&root()) else {
+        recorded::skipped("the_ring_laser_log_is_read_whole");
         return;
     };
     let record = run("navigate_ring_laser.yaml", &[], Some(data)).unwrap();

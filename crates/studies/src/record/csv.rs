@@ -1,8 +1,9 @@
 //! Tables as CSV: a header line, then one row a line, numbers with the shortest digits that read back.
+//! Zero has no sign, and a count has no decimals.
 
 use std::io::{self, Write};
 
-use super::{Cell, Table};
+use super::{Cell, Table, columns};
 
 impl Table {
     /// Writes the table. Where a number is not finite the entry is empty.
@@ -18,8 +19,12 @@ impl Table {
             for (i, column) in self.columns.iter().enumerate() {
                 separate(&mut line, i);
                 match column.cell(row) {
+                    Cell::Number(x) if x.is_finite() && columns::is_count(column.name()) => {
+                        line.extend_from_slice(format!("{x:.0}").as_bytes())
+                    }
+                    // A sum with 0 has no negative zero.
                     Cell::Number(x) if x.is_finite() => {
-                        line.extend_from_slice(buffer.format_finite(x).as_bytes())
+                        line.extend_from_slice(buffer.format_finite(x + 0.0).as_bytes())
                     }
                     Cell::Number(_) => {}
                     Cell::Word(text) => word(&mut line, text),

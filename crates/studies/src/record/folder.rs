@@ -6,11 +6,14 @@ use std::{
 };
 
 use super::Record;
-use crate::{Error, scenario::Formats};
+use crate::{Diagnostic, Error, scenario::Formats};
 
-/// What a run leaves in its folder beside `*.csv`: by this a folder of an earlier run is known.
+/// Lists the files of a run: by this a folder of an earlier run, and what in it is the run's own, are known.
 const SUMMARY: &str = "summary.json";
 const FIGURES: &str = "figures";
+const EXPECTED: &str = "a new folder, an empty one, or one with nothing but the files of an earlier run, \
+                        where new files can be made";
+const HELP: &str = "choose another folder with --out DIR";
 
 /// A place for the results of a run, checked before the run begins.
 #[derive(Debug)]
@@ -19,29 +22,16 @@ pub struct Folder {
 }
 
 impl Folder {
-    /// Checks that `path` can become the folder of a run: it is absent, empty or of an earlier run, and its
-    /// parent takes new folders. Nothing is left on the disk.
+    /// Checks that `path` can become the folder of a run: it is absent, empty or holds nothing but the files
+    /// that an earlier run lists in its summary, and new files can be made. Nothing is left on the disk.
     ///
     /// # Errors
-    /// [`Error::Write`] that says what is in the way.
+    /// [`Error::Input`] that says what is in the way.
     pub fn check(path: impl Into<PathBuf>) -> Result<Self, Error> {
         let folder = Folder { path: path.into() };
-        let write = |source| Error::Write { path: folder.path.clone(), source };
-        if let Some(stranger) = stranger(&folder.path).map_err(write)? {
-            let text = format!(
-                "there is `{}`, which is of no run; choose another folder with --out",
-                stranger.to_string_lossy()
-            );
-            return Err(write(io::Error::new(io::ErrorKind::AlreadyExists, text)));
-        }
-        // The nearest folder that exists must take a new one.
-        let mut above = folder.path.parent();
-        while let Some(parent) = above.filter(|p| !p.as_os_str().is_empty() && !p.exists()) {
-            above = parent.parent();
-        }
-        let above = above.filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let probe = above.join(format!(".schuler-probe-{}", std::process::id()));
-        fs::create_dir(&probe).and_then(|()| fs::remove_dir(&probe)).map_err(write)?;
+        folder.usable().map_err(|(problem, found)| {
+            Diagnostic::new(&folder.path, problem).expected(EXPECTED).found(found).help(HELP)
+        })?;
         Ok(folder)
     }
 
@@ -51,58 +41,137 @@ impl Folder {
     }
 
     /// Writes the record: first into a folder beside the target, which takes its place when complete.
+    /// Of what was there, only the files that the earlier run lists go.
     ///
     /// # Errors
-    /// [`Error::Write`] or [`Error::Figure`]; then nothing has changed.
+    /// [`Error::Write`], [`Error::Input`] or [`Error::Figure`]; then nothing has changed.
     pub fn write(&self, record: &Record, formats: Formats) -> Result<(), Error> {
-        let part = self.beside("part");
+        // A link stays, what it leads to is replaced.
+        let target = fs::canonicalize(&self.path).unwrap_or_else(|_| self.path.clone());
+        let part = beside(&target, "part");
+        let made = absent_above(&target);
         let result = fill(&part, record, formats).and_then(|()| {
-            self.replace(&part).map_err(|source| Error::Write { path: self.path.clone(), source })
+            // Somebody may have put a file there while the study ran.
+            Folder::check(&self.path)?;
+            replace(&target, &part).map_err(|source| Error::Write { path: self.path.clone(), source })
         });
         if result.is_err() {
             let _ = fs::remove_dir_all(&part);
+            // Folders made on the way; one that is not empty stays.
+            for folder in made {
+                let _ = fs::remove_dir(folder);
+            }
         }
         result
     }
 
-    /// `out/.name.part-123`.
-    fn beside(&self, what: &str) -> PathBuf {
-        let name = self.path.file_name().unwrap_or_default().to_string_lossy();
-        self.path.with_file_name(format!(".{name}.{what}-{}", std::process::id()))
-    }
-
-    fn replace(&self, part: &Path) -> io::Result<()> {
-        if !self.path.exists() {
-            return fs::rename(part, &self.path);
+    /// What is wrong with the folder, and what was found; `Ok` where it can be used.
+    fn usable(&self) -> Result<(), (String, String)> {
+        let refused = |path: &Path| {
+            let path = path.display().to_string();
+            move |error: io::Error| ("cannot write the results here".to_string(), format!("{path}: {error}"))
+        };
+        if self.path.symlink_metadata().is_ok() {
+            if !self.path.is_dir() {
+                return Err(("cannot write the results here".into(), "a file that is no folder".into()));
+            }
+            let files = files(&self.path).map_err(refused(&self.path))?;
+            let own = own(&self.path);
+            if let Some(stranger) = files.iter().find(|name| !own.contains(*name)) {
+                return Err((
+                    "the folder holds a file that is not from an earlier run and would be lost".into(),
+                    format!("`{stranger}`"),
+                ));
+            }
+            for inside in [self.path.clone(), self.path.join(FIGURES)] {
+                if inside.is_dir() {
+                    probe(&inside).map_err(refused(&inside))?;
+                }
+            }
         }
-        let old = self.beside("old");
-        fs::rename(&self.path, &old)?;
-        if let Err(error) = fs::rename(part, &self.path) {
-            fs::rename(&old, &self.path)?;
-            return Err(error);
-        }
-        fs::remove_dir_all(&old)
+        // The nearest folder that exists must take a new one.
+        let target = fs::canonicalize(&self.path).unwrap_or_else(|_| self.path.clone());
+        let absent = absent_above(&target);
+        let above = match absent.last() {
+            Some(absent) => absent.parent(),
+            None => target.parent(),
+        };
+        let above = above.filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        probe(above).map_err(refused(above))
     }
 }
 
-/// An entry of an existing folder that no run has written, or the path itself where it is no folder.
-fn stranger(path: &Path) -> io::Result<Option<std::ffi::OsString>> {
-    let entries = match fs::read_dir(path) {
-        Ok(entries) => entries,
-        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-        Err(_) if path.is_file() => return Ok(path.file_name().map(Into::into)),
-        Err(error) => return Err(error),
-    };
-    let names: Vec<std::ffi::OsString> =
-        entries.map(|e| e.map(|e| e.file_name())).collect::<Result<_, _>>()?;
-    let ours = |name: &std::ffi::OsString| {
-        name == SUMMARY
-            || name == FIGURES
-            || Path::new(name).extension().is_some_and(|e| e == "csv" || e == "yaml")
-    };
-    // Without a summary even a CSV may be anybody's.
-    let run = names.iter().any(|name| name == SUMMARY);
-    Ok(names.into_iter().find(|name| !run || !ours(name)))
+/// `out/.name.part-123`.
+fn beside(path: &Path, what: &str) -> PathBuf {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!(".{name}.{what}-{}", std::process::id()))
+}
+
+/// The folders above `path` that do not exist, the nearest first.
+fn absent_above(path: &Path) -> Vec<PathBuf> {
+    let above = path.ancestors().skip(1).filter(|p| !p.as_os_str().is_empty());
+    above.take_while(|p| !p.exists()).map(Path::to_path_buf).collect()
+}
+
+/// Makes an entry in a folder and takes it away.
+fn probe(folder: &Path) -> io::Result<()> {
+    let probe = folder.join(format!(".schuler-probe-{}", std::process::id()));
+    fs::create_dir(&probe).and_then(|()| fs::remove_dir(&probe))
+}
+
+fn replace(target: &Path, part: &Path) -> io::Result<()> {
+    if !target.exists() {
+        return fs::rename(part, target);
+    }
+    let (old, own) = (beside(target, "old"), own(target));
+    fs::rename(target, &old)?;
+    if let Err(error) = fs::rename(part, target) {
+        fs::rename(&old, target)?;
+        return Err(error);
+    }
+    // One by one and by name: what nobody listed cannot go.
+    for name in files(&old)?.iter().filter(|name| own.contains(*name)) {
+        let path = old.join(name);
+        if path.is_dir() { fs::remove_dir(path)? } else { fs::remove_file(path)? }
+    }
+    fs::remove_dir(&old)
+}
+
+/// Every entry of a folder and of its figures, as a summary lists them; the folder of figures last.
+fn files(folder: &Path) -> io::Result<Vec<String>> {
+    let mut names = Vec::new();
+    let mut figures = false;
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if name == FIGURES && entry.file_type()?.is_dir() {
+            figures = true;
+        } else {
+            names.push(name);
+        }
+    }
+    if figures {
+        for entry in fs::read_dir(folder.join(FIGURES))? {
+            names.push(format!("{FIGURES}/{}", entry?.file_name().to_string_lossy()));
+        }
+        names.push(FIGURES.into());
+    }
+    Ok(names)
+}
+
+/// What the summary in a folder lists, with itself and the folder of figures; nothing where there is no such summary.
+fn own(folder: &Path) -> Vec<String> {
+    #[derive(serde::Deserialize)]
+    struct Summary {
+        files: Vec<String>,
+    }
+    let text = fs::read_to_string(folder.join(SUMMARY)).unwrap_or_default();
+    let Ok(Summary { mut files }) = serde_json::from_str(&text) else { return Vec::new() };
+    if files.iter().any(|name| name.starts_with("figures/")) {
+        files.push(FIGURES.into());
+    }
+    files.push(SUMMARY.into());
+    files
 }
 
 fn fill(part: &Path, record: &Record, formats: Formats) -> Result<(), Error> {

@@ -2,6 +2,7 @@
 
 mod csv;
 mod folder;
+mod lookup;
 mod summary;
 mod table;
 #[cfg(test)]
@@ -66,6 +67,9 @@ pub struct Verdict {
     pub tolerance: f64,
     /// What the study found, SI; NaN where the record has no such row.
     pub found: f64,
+    /// Why nothing was found, and what there is instead.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub not_found: Option<String>,
     /// Whether it holds.
     pub holds: bool,
 }

@@ -1,10 +1,10 @@
 //! `summary.json`, and the summary for the terminal.
 
-use std::fmt::Write;
+use std::fmt::{self, Display, Formatter, Write};
 
 use serde::{Serialize, Serializer, ser::SerializeMap};
 
-use super::{Cell, Header, Record, Table, Verdict};
+use super::{Cell, Header, Record, Table, Verdict, columns};
 
 #[derive(Serialize)]
 struct Summary<'a> {
@@ -32,7 +32,11 @@ impl Serialize for Row<'_> {
         let mut map = serializer.serialize_map(Some(table.columns.len()))?;
         for column in &table.columns {
             match column.cell(*row) {
-                Cell::Number(value) => map.serialize_entry(column.name(), &value)?,
+                Cell::Number(value) if value.is_finite() && columns::is_count(column.name()) => {
+                    map.serialize_entry(column.name(), &(value as u64))?
+                }
+                // A sum with 0 has no negative zero.
+                Cell::Number(value) => map.serialize_entry(column.name(), &(value + 0.0))?,
                 Cell::Word(word) => map.serialize_entry(column.name(), word)?,
             }
         }
@@ -67,13 +71,24 @@ impl Record {
         if !self.verdicts.is_empty() {
             text.push('\n');
         }
-        for Verdict { what, expected, tolerance, found, holds } in &self.verdicts {
-            let word = if *holds { "holds" } else { "FAILS" };
-            let [expected, found] = [expected, found].map(|x| digits(*x, *tolerance));
-            let tolerance = number(*tolerance);
-            let _ = writeln!(text, "expect {word}: {what} is {found}, expected {expected} ± {tolerance}");
+        for verdict in &self.verdicts {
+            let word = if verdict.holds { "holds" } else { "FAILS" };
+            let _ = writeln!(text, "expect {word}: {verdict}");
         }
         text
+    }
+}
+
+/// What was compared, what it is and what was expected; or why it is not there.
+impl Display for Verdict {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Verdict { what, expected, tolerance, found, not_found, .. } = self;
+        let expected = digits(*expected, *tolerance);
+        let end = format!("expected {expected} ± {}", number(*tolerance));
+        match not_found {
+            Some(reason) => write!(f, "{what} is not found ({end}): {reason}"),
+            None => write!(f, "{what} is {}, {end}", digits(*found, *tolerance)),
+        }
     }
 }
 
@@ -86,6 +101,7 @@ impl Table {
             .iter()
             .map(|column| {
                 let show = |row| match column.cell(row) {
+                    Cell::Number(x) if x.is_finite() && columns::is_count(column.name()) => format!("{x:.0}"),
                     Cell::Number(x) => number(x),
                     Cell::Word(word) => word.into(),
                 };

@@ -236,6 +236,11 @@ pub mod columns {
     /// `way` of `errors.csv`.
     pub const WAYS: [&str; 5] = ["nonlinear", "half_difference", "linear", "exact", "single_axis"];
 
+    /// Whether a column holds counts, which are whole numbers.
+    pub fn is_count(name: &str) -> bool {
+        name.ends_with("_count")
+    }
+
     /// The unit that the last part of a column's name states.
     pub fn unit(name: &str) -> Option<Unit> {
         match name.rsplit_once('_')?.1 {

@@ -1,7 +1,10 @@
 use std::fs;
 
 use super::{Cell, Folder, Record, Table};
-use crate::{Error, Scenario, figure};
+use crate::{
+    Error, Scenario, figure,
+    scenario::{Expect, Statistic},
+};
 
 const SCENARIO: &str = "\
 schuler: 1
@@ -46,10 +49,74 @@ fn verdicts() {
     assert!(!record.holds());
 }
 
+/// An `expect` that speaks of nothing fails, and says what there is to speak of.
+#[test]
+fn what_is_not_found_is_said() {
+    let (scenario, mut record) = record();
+    let mut table = Table::new("errors", &["t_s", "source", "way", "dn_m"], &["source", "way"]);
+    table.push(&[60.0.into(), "gyro.bias.constant.x".into(), "nonlinear".into(), 1.0.into()]);
+    table.push(&[60.0.into(), "all".into(), "linear".into(), 1.0.into()]);
+    record.tables.push(table);
+    let mut reason = |quantity: &str, source: Option<&str>, way: Option<&str>, at: Statistic| {
+        let mut scenario = scenario.clone();
+        let expect = Expect {
+            quantity: quantity.into(),
+            source: source.map(Into::into),
+            way: way.map(Into::into),
+            at,
+            value: 1.0,
+            tolerance: 1.0,
+        };
+        scenario.expect = vec![expect];
+        record.judge(&scenario);
+        assert!(!record.holds());
+        let reason = record.verdicts[0].not_found.clone().expect("a reason");
+        let json: serde_json::Value = serde_json::from_str(&record.summary_json(&[])).expect("JSON");
+        assert_eq!(json["expect"][0]["not_found"], reason.as_str());
+        let text = record.summary_text();
+        assert!(
+            text.contains("is not found (expected 1.0000 ± 1.0000): ") && text.contains(&reason),
+            "{text}"
+        );
+        reason
+    };
+    let rate = "omega_x_radps";
+    assert_eq!(
+        reason(rate, None, None, Statistic::Time(0.6)),
+        "there is no row at 0.6 s; the nearest are at 0.5 s and 0.75 s"
+    );
+    assert_eq!(reason(rate, None, None, Statistic::Time(2.0)), "there is no row at 2 s; the last is at 1 s");
+    assert_eq!(
+        reason(rate, None, None, Statistic::Time(0.0)),
+        "there is no row at 0 s; the first is at 0.25 s"
+    );
+    assert_eq!(
+        reason(rate, Some("all"), None, Statistic::Final),
+        "the rows of `imu` have no source: leave `source` out"
+    );
+    assert_eq!(
+        reason("omega_y_radps", None, None, Statistic::Final),
+        "this run has no column `omega_y_radps`; there are `omega_x_radps`, `dn_m`; did you mean `omega_x_radps`?"
+    );
+    assert_eq!(
+        reason("dn_m", Some("gyro.bias.constnat.x"), None, Statistic::Final),
+        "there is no source `gyro.bias.constnat.x`; there are `gyro.bias.constant.x`, `all`; did you mean \
+         `gyro.bias.constant.x`?"
+    );
+    assert_eq!(
+        reason("dn_m", Some("all"), Some("exact"), Statistic::Final),
+        "there is no way `exact` of source `all`; there is `linear`"
+    );
+    assert_eq!(
+        reason("dn_m", Some("all"), None, Statistic::Deviation),
+        "a standard deviation needs two rows; there is one"
+    );
+}
+
 #[test]
 fn csv_reads_back() {
     let mut table = Table::new("t", &["source", "x"], &["source"]);
-    let values = [1.0 / 3.0, 1e-300, -0.0, 1e17, f64::MIN_POSITIVE, f64::NAN];
+    let values = [1.0 / 3.0, 1e-300, 0.0, 1e17, f64::MIN_POSITIVE, f64::NAN];
     for value in values {
         table.push(&["a \"b\", c".into(), Cell::Number(value)]);
     }
@@ -65,6 +132,22 @@ fn csv_reads_back() {
             _ => assert_eq!(number.parse::<f64>().map(f64::to_bits), Ok(value.to_bits())),
         }
     }
+}
+
+/// A negative zero is rounding and no direction; samples are counted in whole numbers.
+#[test]
+fn zero_has_no_sign_and_a_count_no_decimals() {
+    let mut table = Table::new("t", &["x_m", "samples_count"], &[]);
+    table.push(&[Cell::Number(-0.0), 184_718.0.into()]);
+    table.push(&[Cell::Number(-0.5), 12_345_678.0.into()]);
+    let mut csv = Vec::new();
+    table.write_csv(&mut csv).expect("a vector takes all");
+    assert_eq!(String::from_utf8(csv).expect("UTF-8"), "x_m,samples_count\n0.0,184718\n-0.5,12345678\n");
+    assert!(table.text().contains("12345678"), "{}", table.text());
+    let (_, mut record) = record();
+    record.summary = table;
+    let json = record.summary_json(&[]);
+    assert!(json.contains("\"x_m\": 0.0,") && json.contains("\"samples_count\": 184718\n"), "{json}");
 }
 
 #[test]
@@ -88,16 +171,39 @@ fn a_folder_is_whole_or_not_there() {
     let beside = |path: &std::path::Path| fs::read_dir(path).expect("a folder").count();
     assert_eq!(beside(&base.join("deep")), 1);
 
-    // Somebody's own file stays.
-    fs::write(path.join("notes.txt"), "mine").expect("written");
-    assert!(matches!(Folder::check(&path), Err(Error::Write { .. })));
+    // Somebody's own files stay, whatever they are called.
+    for name in ["notes.txt", "mine.csv", "sources.yaml", "figures/mine.png", "figures/deep"] {
+        match name {
+            "figures/deep" => fs::create_dir(path.join(name)).expect("made"),
+            _ => fs::write(path.join(name), "mine").expect("written"),
+        }
+        let message = Folder::check(&path).expect_err(name).to_string();
+        assert!(message.contains(&format!("found: `{name}`")), "{message}");
+        assert!(message.contains("expected: a new folder") && message.contains("--out DIR"), "{message}");
+        match name {
+            "figures/deep" => fs::remove_dir(path.join(name)).expect("still there"),
+            _ => fs::remove_file(path.join(name)).expect("still there"),
+        }
+    }
+    // One that comes while the study runs stays too, and so does the earlier result.
+    let folder = Folder::check(&path).expect("a place");
+    fs::write(path.join("late.csv"), "mine").expect("written");
+    assert!(matches!(folder.write(&record, scenario.output.formats), Err(Error::Input(_))));
+    assert_eq!(fs::read_to_string(path.join("late.csv")).expect("still there"), "mine");
+    assert!(path.join("imu.csv").is_file());
+    assert_eq!(beside(&base.join("deep")), 1);
+    // A summary that is none of ours lists nothing.
+    let foreign = base.join("deep/foreign");
+    fs::create_dir(&foreign).expect("made");
+    fs::write(foreign.join("summary.json"), "{}").expect("written");
+    assert!(matches!(Folder::check(&foreign), Err(Error::Input(_))));
     // A file is no folder, and nothing can be made below it.
-    assert!(matches!(Folder::check(path.join("notes.txt")), Err(Error::Write { .. })));
-    assert!(matches!(Folder::check(path.join("notes.txt/run")), Err(Error::Write { .. })));
+    assert!(matches!(Folder::check(path.join("late.csv")), Err(Error::Input(_))));
+    assert!(matches!(Folder::check(path.join("late.csv/run")), Err(Error::Input(_))));
     // A record that cannot be written leaves what was there.
     let mut broken = record.clone();
     broken.tables[0].name = "no/such/folder".into();
-    let other = Folder::check(base.join("other")).expect("a place");
+    let other = Folder::check(base.join("other/below")).expect("a place");
     assert!(other.write(&broken, scenario.output.formats).is_err());
     assert_eq!(beside(&base), 1);
     fs::remove_dir_all(&base).expect("removed");
