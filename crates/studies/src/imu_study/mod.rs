@@ -12,7 +12,7 @@ mod theory;
 use schuler_imu::{Imu, Instrument, Sample, Stream, readout::Status};
 
 use crate::{
-    Context, Error, Scenario,
+    Context, Diagnostic, Error, Scenario,
     log::Content,
     record::{Cell, Record, Table, columns},
     scenario::{ImuStudy, Motion},
@@ -24,12 +24,24 @@ use theory::Theory;
 /// Samples between two reports of progress.
 const REPORT: u64 = 10_000;
 
+/// Rows of `imu.csv`, of fourteen numbers each with `imu_errors.csv`.
+const MOST_ROWS: u64 = 20_000_000;
+
 /// Runs the study: every sample goes through the error model, statistics are over all of them, rows and
 /// figures keep those of `output.every`.
 ///
 /// # Errors
 /// The IMU refuses its list of sources.
 pub fn run(scenario: &Scenario, study: &ImuStudy, context: &Context) -> Result<Record, Error> {
+    let stride = scenario.output.every.map_or(1, |every| (every * study.imu.rate).round() as u64);
+    if study.samples / stride.max(1) > MOST_ROWS {
+        let fault = Diagnostic::new(&scenario.file, "more rows than can be kept")
+            .path("output.every")
+            .expected(format!("at most {MOST_ROWS} rows"))
+            .found(format!("{} samples, every {stride} kept", study.samples))
+            .example("every: 1 s");
+        return Err(fault.into());
+    }
     let dt = 1.0 / study.imu.rate;
     let profile = Profile::new(study);
     let mut imu = Imu::new(&study.imu.spec, Stream { seed: scenario.seed, run: 0 })?;
@@ -44,7 +56,6 @@ pub fn run(scenario: &Scenario, study: &ImuStudy, context: &Context) -> Result<R
     let mut flags = Table::new("imu_flags", &columns::IMU_FLAGS, &[]);
     let mut kept = allan::Errors::default();
     let mut flagged = [[0u64; 6]; 2];
-    let stride = scenario.output.every.map_or(1, |every| (every * study.imu.rate).round() as u64);
 
     let read_out = study.imu.spec.readout.is_some();
     context.progress.begin("samples", study.samples);

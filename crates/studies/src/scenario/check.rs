@@ -16,8 +16,8 @@ use super::{
 };
 use crate::{Diagnostic, log::Content};
 
-/// More rows than this in memory help nobody (a day at 1 kHz).
-const MAX_SAMPLES: f64 = 1e8;
+/// A year at 300 Hz: a typing error beyond it. What is kept in memory is the rows, which each study limits.
+const MAX_SAMPLES: f64 = 1e10;
 
 impl Document {
     pub(super) fn scenario(&self, w: &written::Scenario) -> Result<Scenario, Diagnostic> {
@@ -167,7 +167,7 @@ impl Document {
         let problem = if whole < 1.0 || (samples - whole).abs() > 1e-9 * samples.max(1e3) {
             "the duration is not a whole number of samples"
         } else if whole > MAX_SAMPLES {
-            "the duration has more than 100 million samples"
+            "the duration has more than ten thousand million samples"
         } else {
             return Ok(whole as u64);
         };
