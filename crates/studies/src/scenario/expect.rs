@@ -54,8 +54,8 @@ impl Document {
             ]
             .concat(),
             StudyKind::Drift => columns::ERRORS.to_vec(),
-            // Its results are statistics with intervals of their own.
-            StudyKind::Allan => Vec::new(),
+            // Its parameters are estimates with intervals of their own; the deviations are facts of the log.
+            StudyKind::Allan => vec!["deviation_radps", "deviation_mps2"],
             StudyKind::Navigate => {
                 [&columns::TRAJECTORY[..], &columns::ERRORS[3..], &columns::LOG[2..]].concat()
             }
