@@ -247,12 +247,13 @@ fn axes_must_be_a_proper_rotation() {
 /// A log in SI with its time in the last column; it is not part of the repository. 10 001 rows, 100 Hz, 100 s.
 #[test]
 fn the_mems_vehicle_log_is_read_whole() {
-    let Some(data) = std::env::var_os("SCHULER_DATA") else {
-        eprintln!("skipped: SCHULER_DATA does not name the folder of the MEMS vehicle log");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let Some(data) = crate::recorded::folder(&root) else {
+        crate::recorded::skipped("the_mems_vehicle_log_is_read_whole");
         return;
     };
     let mut spec = spec();
-    spec.file = "mems_vehicle_imu.csv.gz".into();
+    spec.file = "psins/mems_vehicle_imu.csv.gz".into();
     spec.columns = Columns {
         time: Some(TimeColumn { column: name("t_s"), scale: 1.0 }),
         gyro: ["dthx_rad", "dthy_rad", "dthz_rad"].map(name),
