@@ -1,12 +1,7 @@
 //! Strapdown mechanization, linear error dynamics and closed forms.
 #![no_std]
 
-/// Attitude at the start, from the sensors themselves.
-pub mod align {
-    mod triad;
-
-    pub use triad::{TriadError, triad};
-}
+pub mod align;
 mod anchor;
 mod cartesian;
 mod coning;

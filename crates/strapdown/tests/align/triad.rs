@@ -1,7 +1,8 @@
 //! TRIAD against the reference table and against its own limits.
 
 use schuler_frames::{B, Euler, Geodetic, Gravity, Rate, Rot, T, Vec3, earth, phi_between, wgs84};
-use schuler_strapdown::align::{TriadError, triad};
+use schuler_strapdown::align::{Limits, TriadError, Vectors, triad};
+use schuler_strapdown::static_base::Site;
 
 /// 1 deg/h in rad/s; 1 µg = 9.80665e-6 m/s².
 const DEGPH: f64 = std::f64::consts::PI / 648_000.0;
@@ -56,4 +57,55 @@ fn vectors_that_give_no_attitude_are_refused() {
     assert_eq!(go(up, rate(0.0, 0.0), 0.8), Err(TriadError::NoHeading { sine: 0.0 }));
     assert!(matches!(go(up, rate(f64::NAN, 0.0), 0.8), Err(TriadError::NoHeading { .. })));
     assert!(go(up, rate(5e-5, -5e-5), 0.8).is_ok());
+}
+
+/// What each order makes of small sensor errors, to first order, for a body that leans.
+#[test]
+fn orders_differ_as_their_laws_say() {
+    let position = Geodetic::new(0.8, 0.0, 50.0);
+    let gravity = Gravity::Somigliana;
+    let (s, c) = position.lat.sin_cos();
+    let (g, o) = (gravity.gravity_t(position).norm(), wgs84::OMEGA);
+    let truth: Rot<T, B> = Rot::from_euler(Euler::new(0.3, -0.2, 2.0));
+    let omega_t = earth::omega_ie_t(s, c).as_vec3();
+    let f_t = -gravity.gravity_t(position);
+    for axis in 0..6 {
+        let mut errors = [0.0; 6];
+        errors[axis] = if axis < 3 { 1e-4 * o } else { 1e-4 * g };
+        let [eps_n, eps_e, eps_d, nabla_n, nabla_e, nabla_d] = errors;
+        let (eps, nabla) = (Vec3::<T>::new(eps_n, eps_e, eps_d), Vec3::<T>::new(nabla_n, nabla_e, nabla_d));
+        let tan = s / c;
+        let about_east = [
+            (Vectors::ForceFirst, -nabla_n / g),
+            (Vectors::RateFirst, -(s * eps_n + c * eps_d) / o),
+            (Vectors::Inverse, 0.5 * (tan * nabla_d / g - nabla_n / g - eps_d / (o * c))),
+        ];
+        let limit = Limits::new(Site::new(position, gravity)).bias(eps, nabla);
+        for (order, phi_e) in about_east {
+            let back = truth.inverse();
+            let found = order
+                .attitude(back * (f_t + nabla), Rate::claim(back * (omega_t + eps)), position, gravity)
+                .unwrap();
+            let expected = Vec3::<T>::new(limit[0], phi_e, limit[2]);
+            let residue = (phi_between(found, truth) - expected).norm();
+            // Second order of errors of 1e-4.
+            assert!(residue < 1e-7, "{order:?} axis {axis}: {residue:e}");
+        }
+    }
+}
+
+/// No order needs the latitude for the heading: at a wrong one only what is known of the vertical Earth rate changes, which
+/// the first two do not use.
+#[test]
+fn heading_does_not_depend_on_the_latitude_that_is_used() {
+    let gravity = Gravity::Somigliana;
+    let truth: Rot<T, B> = Rot::from_euler(Euler::new(0.1, 0.05, -1.2));
+    let place = Geodetic::new(0.6, 0.0, 0.0);
+    let (s, c) = place.lat.sin_cos();
+    let f_b = truth.inverse() * -gravity.gravity_t(place);
+    let omega = Rate::claim(truth.inverse() * earth::omega_ie_t(s, c).as_vec3());
+    for wrong in [-0.3, 0.4, 0.9] {
+        let found = triad(f_b, omega, Geodetic::new(wrong, 0.0, 0.0), gravity).unwrap();
+        assert!(phi_between(found, truth).norm() < 1e-14, "{wrong}");
+    }
 }

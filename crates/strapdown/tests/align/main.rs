@@ -1,0 +1,7 @@
+//! Alignment methods against what they must find and against their laws.
+
+mod base;
+mod gyrocompass;
+mod inertial;
+mod laws;
+mod triad;
