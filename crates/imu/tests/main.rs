@@ -3,6 +3,7 @@
 mod allocation;
 mod api;
 mod cost_of_a_term;
+mod draws;
 mod examples;
 mod laws;
 mod philox;

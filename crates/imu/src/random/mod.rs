@@ -1,9 +1,11 @@
 //! Random numbers as pure functions of their address.
 
+mod draws;
 mod lanes;
 mod philox;
 mod stream;
 
+pub use draws::Draws;
 pub use fearless_simd::Level;
 pub use lanes::{best_level, fill_normals};
 pub use philox::philox4x32_10;
