@@ -1,0 +1,5 @@
+//! Laws of every kind of motion, and closed forms of single ones.
+
+mod closed_forms;
+mod kinds;
+mod laws;
