@@ -84,13 +84,16 @@ impl Place {
 
     /// From the Earth-fixed position (m).
     pub fn from_ecef(r_e: [Jet; 3]) -> Self {
-        let position = Geodetic::from_ecef(Vec3::claim(r_e.map(|x| x.value())));
-        let c_te = position.c_et().inverse();
-        Place {
-            position,
-            v_t: c_te * Vec3::<E>::claim(r_e.map(|x| x.rate())),
-            a_t: c_te * Vec3::<E>::claim(r_e.map(|x| x.acceleration())),
-        }
+        let [r, v, a] =
+            [Jet::value, Jet::rate, Jet::acceleration].map(|part| Vec3::claim(r_e.map(|x| part(&x))));
+        Place::from_e(r, v, a)
+    }
+
+    /// From position (m), velocity (m/s) and acceleration (m/s²) against e, resolved in e.
+    pub fn from_e(r_e: Vec3<E>, v_e: Vec3<E>, a_e: Vec3<E>) -> Self {
+        let position = Geodetic::from_ecef(r_e);
+        let c_te = position.c_et().inverse().as_dcm();
+        Place { position, v_t: c_te * v_e, a_t: c_te * a_e }
     }
 
     /// From the position, the velocity and the derivatives of its components north, east and down (m/s²); not at a pole.

@@ -20,26 +20,40 @@
 //! assert!((moment.pva.c_tb.as_euler().roll - 2f64.to_radians()).abs() < 1e-15);
 //! ```
 
+mod coning;
+mod constant_velocity;
+mod great_circle;
+mod impossible;
 mod jet;
 mod kinematics;
 mod positions;
 mod quadrature;
 mod rate_table;
+mod rates;
+mod segments;
 mod shaken;
 mod smooth;
 mod still;
 mod sway;
 #[cfg(test)]
 mod tests;
+mod track;
 mod truth;
 
+pub use coning::{Coning, Sculling};
+pub use constant_velocity::ConstantVelocity;
+pub use great_circle::GreatCircle;
+pub use impossible::Impossible;
 pub use jet::Jet;
 pub use kinematics::{Kinematics, Place, Stance};
 pub use positions::{Pose, Positions};
 pub use rate_table::RateTable;
-pub use shaken::{Coning, Sculling};
+pub use rates::increments_of_rates;
+pub use segments::{Course, Segment, Segments, Sharpness, Turn};
+pub use shaken::Shaken;
 pub use still::Still;
 pub use sway::{Sine, Sway, SwayAxes};
+pub use track::Track;
 pub use truth::{Moment, Truth};
 
 /// A motion as a function of time.

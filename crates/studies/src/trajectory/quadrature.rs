@@ -7,6 +7,14 @@ const THREE: [(f64, f64); 3] = [
     (0.887_298_334_620_741_69, 0.277_777_777_777_777_78),
 ];
 
+/// Nodes and weights on 0..1, exact for polynomials of degree 7.
+const FOUR: [(f64, f64); 4] = [
+    (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
+    (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
+    (0.669_990_521_792_428_13, 0.326_072_577_431_273_07),
+    (0.930_568_155_797_026_29, 0.173_927_422_568_726_93),
+];
+
 /// Nodes and weights on 0..1, exact for polynomials of degree 9.
 const FIVE: [(f64, f64); 5] = [
     (0.046_910_077_030_668_004, 0.118_463_442_528_094_54),
@@ -17,8 +25,9 @@ const FIVE: [(f64, f64); 5] = [
 ];
 
 /// `n` nodes err by (n!)⁴ / ((2n + 1) (2n)!³) x^2n of a sine's amplitude over an interval of x = omega dt: three nodes by
-/// 5e-7 x⁶, five by 4e-13 x¹⁰. Up to these x that is below 1e-16.
+/// 5e-7 x⁶, four by 6e-10 x⁸, five by 4e-13 x¹⁰. Up to these x that is below 1e-16.
 const X_THREE: f64 = 0.024;
+const X_FOUR: f64 = 0.14;
 const X_FIVE: f64 = 0.43;
 
 /// Calls `add(time, weight)` for each node of the interval from `t` to `t + dt` (s), whose integrand has angular
@@ -38,8 +47,9 @@ pub fn nodes(t: f64, dt: f64, fastest: f64, joints: &[f64], mut add: impl FnMut(
 /// From `t + begin` on, `dt` long, without a joint.
 fn smooth(t: f64, begin: f64, dt: f64, fastest: f64, add: &mut impl FnMut(f64, f64)) {
     let x = fastest * dt;
-    if x < X_THREE {
-        for (node, weight) in THREE {
+    if x < X_FOUR {
+        let nodes: &[(f64, f64)] = if x < X_THREE { &THREE } else { &FOUR };
+        for (node, weight) in nodes {
             add(t + (begin + node * dt), weight * dt);
         }
         return;

@@ -36,6 +36,14 @@ impl SwayAxes {
     fn all(&self) -> [&[Sine]; 6] {
         [&self.roll, &self.pitch, &self.yaw, &self.n, &self.e, &self.d]
     }
+
+    /// The largest angular frequency, rad/s. An attitude that swings by a radian turns what is resolved in it that much
+    /// faster.
+    pub(super) fn fastest(&self) -> f64 {
+        let highest = self.all().into_iter().flatten().map(|sine| sine.omega.abs()).fold(0.0, f64::max);
+        let swing: f64 = self.all()[..3].iter().copied().flatten().map(|sine| sine.amplitude.abs()).sum();
+        highest * (1.0 + swing)
+    }
 }
 
 /// A base that rocks about a place and an attitude: a ship at its moorings, an aircraft in gusts.
@@ -53,25 +61,20 @@ pub struct Sway {
 impl Sway {
     /// About `position` and `attitude`.
     pub fn new(position: Geodetic, attitude: Euler, axes: SwayAxes) -> Self {
-        let all = || axes.all().into_iter().flatten();
-        let highest = all().map(|sine| sine.omega.abs()).fold(0.0, f64::max);
-        // An attitude that swings by a radian turns what is resolved in it that much faster.
-        let swing: f64 =
-            [&axes.roll, &axes.pitch, &axes.yaw].into_iter().flatten().map(|sine| sine.amplitude.abs()).sum();
         Sway {
             position,
             r_e: position.as_ecef(),
             c_et: position.c_et(),
             attitude,
             moves: [&axes.n, &axes.e, &axes.d].iter().any(|list| !list.is_empty()),
-            fastest: highest * (1.0 + swing),
+            fastest: axes.fastest(),
             axes,
         }
     }
 }
 
 /// Sum of the sines at the time `t`.
-fn sum(sines: &[Sine], t: f64) -> Jet {
+pub(super) fn sum(sines: &[Sine], t: f64) -> Jet {
     sines.iter().fold(Jet::constant(0.0), |sum, sine| {
         let (s, c) = libm::sincos(sine.omega * t + sine.phase);
         let (a, w) = (sine.amplitude, sine.omega);

@@ -107,13 +107,15 @@ fn increments_add_up() {
                 dv += increments.dv;
             }
             let errors = [(whole.dtheta - dtheta).norm(), (whole.dv - dv).norm()];
-            // Times have been rounded: to 1.4e-14 s at two minutes, in which a force that turns or jumps has changed.
+            // Times have been rounded, by 1e-16 of them: in that time a force that turns or jumps has changed.
             let jump = if kind.smooth { 0.0 } else { 1.4e-14 };
             let moment = kind.truth.moment(t);
+            let alpha =
+                [t, t + dt].map(|t| kind.truth.moment(t).alpha_ib_b.norm()).into_iter().fold(0.0, f64::max);
             let turn = moment.omega_ib_b.as_vec3().norm() + kind.motion().fastest();
             let limits = [
-                1e-17 + 2e-16 * turn * dt + jump,
-                1e-16 + 1e-15 * (1.0 + turn) * moment.f_b.norm() * dt + 10.0 * jump,
+                1e-17 + 2e-16 * dt * (turn + 2.0 * t * alpha) + jump,
+                1e-16 + 1e-15 * (1.0 + turn) * moment.f_b.norm() * dt * (1.0 + 0.2 * t) + 10.0 * jump,
             ];
             let fine = errors[0] < limits[0] && errors[1] < limits[1];
             assert!(fine, "{} at {t}: {errors:?}, {limits:?}", kind.name);

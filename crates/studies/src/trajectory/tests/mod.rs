@@ -3,3 +3,5 @@
 mod closed_forms;
 mod kinds;
 mod laws;
+mod navigators;
+mod segments;
