@@ -17,6 +17,7 @@ mod recorded;
 mod run;
 pub mod scenario;
 mod similar;
+pub mod trajectory;
 pub mod units;
 
 pub use diagnostic::{Diagnostic, Excerpt, Place};

@@ -1,0 +1,7 @@
+//! Laws of every kind of motion, and closed forms of single ones.
+
+mod closed_forms;
+mod kinds;
+mod laws;
+mod navigators;
+mod segments;
