@@ -6,6 +6,7 @@ mod anchor;
 mod cartesian;
 mod coning;
 mod error_dynamics;
+pub mod filter;
 mod first_order;
 mod increments;
 mod kernel;

@@ -45,3 +45,20 @@ pub extern "C" fn strapdown_gate(lat: f64) -> f64 {
     nav.step(&Increments { dtheta: Vec3::ZERO, dv: Vec3::new(0.0, 0.0, -0.098) }, 0.01);
     nav.pva().position.lat
 }
+
+/// schuler-strapdown: one update of the error-state filter.
+#[unsafe(no_mangle)]
+pub extern "C" fn filter_gate(lat: f64) -> f64 {
+    use schuler_frames::{Geodetic, Rot, Vec3};
+    use schuler_imu::Spec;
+    use schuler_strapdown::Pva;
+    use schuler_strapdown::filter::{Filter, FilterError, Form, Model, NavStates, Now, ZeroVelocity};
+    let run = || -> Result<f64, FilterError> {
+        let pva = Pva { position: Geodetic::new(lat, 0.0, 0.0), v_t: Vec3::ZERO, c_tb: Rot::IDENTITY };
+        let model = Model::<9>::new(Form::Phi, NavStates::ALL, &Spec::new())?;
+        let mut filter = Filter::new(model, &[1.0; 9])?;
+        filter.update(&ZeroVelocity::new(0.1), &Now::at(&pva))?;
+        Ok(filter.sigma(3))
+    };
+    run().unwrap_or(f64::NAN)
+}

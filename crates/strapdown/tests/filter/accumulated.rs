@@ -1,0 +1,145 @@
+//! Transitions accumulated over IMU steps against the dense product of exact transitions of every step.
+
+use nalgebra::SMatrix;
+use schuler_frames::{B, Euler, Geodetic, Rot, Vec3};
+use schuler_imu::Instrument::{Accel, Gyro};
+use schuler_imu::{Source, Spec, Truth};
+use schuler_strapdown::filter::{Accumulator, Form, Model, NavStates, Propagation};
+use schuler_strapdown::{ErrorDynamics, Increments, LocalLevel, Pva, Vertical};
+
+use crate::common::*;
+
+/// Gauss-Markov biases that are short and long, a walk, a ramp, second order, and a scale factor: 9 + 3 + 3 + 3 + 3 + 6 + 3 + 2.
+pub fn mixed() -> Spec {
+    let s = |i, term, process, given: &[(&str, f64)]| {
+        let given: Vec<_> = given.iter().map(|(name, value)| (*name, (*value).into())).collect();
+        Source::named(i, term, process, &given).unwrap()
+    };
+    Spec::from_sources([
+        s(Gyro, "bias", "white", &[("density", 3e-6)]),
+        s(Accel, "bias", "white", &[("density", 1e-4)]),
+        s(Gyro, "bias", "gauss_markov", &[("sigma", 1e-6), ("tau", 0.7)]),
+        s(Accel, "bias", "gauss_markov", &[("sigma", 1e-3), ("tau", 100.0)]),
+        s(Gyro, "bias", "random_walk", &[("density", 1e-7)]),
+        s(Gyro, "scale_factor", "constant", &[("sigma", 1e-3)]),
+        s(Accel, "bias", "second_order_gauss_markov", &[("sigma", 1e-3), ("tau", 3.0)]),
+        s(Accel, "scale_factor", "white", &[("density", 1e-5)]),
+    ])
+    .unwrap()
+}
+
+/// A vehicle that turns, pitches and shakes: increments of step `k` of `dt`.
+pub fn shaken(k: usize, dt: f64) -> Increments {
+    let t = (k as f64 + 0.5) * dt;
+    let dtheta = Vec3::<B>::new(
+        0.1 * (3.0 * t).sin() + 0.02 * (60.0 * t).sin(),
+        0.2 * (1.7 * t).cos(),
+        0.3 + 0.1 * (0.9 * t).sin(),
+    );
+    let dv =
+        Vec3::<B>::new(2.0 * (0.8 * t).sin(), 3.0 + 1.0 * (47.0 * t).cos(), -9.8 + 2.0 * (5.0 * t).sin());
+    Increments { dtheta: dtheta * dt, dv: dv * dt }
+}
+
+pub fn start() -> Pva {
+    Pva {
+        position: Geodetic::new(0.785, 0.1, 500.0),
+        v_t: Vec3::new(60.0, 40.0, -1.0),
+        c_tb: Rot::from_euler(Euler::new(0.02, -0.03, 0.7)),
+    }
+}
+
+/// Dense P after `steps` IMU steps: exact transition and noise of each at its middle.
+fn dense<const N: usize>(
+    model: &Model<N>,
+    dynamics: ErrorDynamics,
+    p: &mut SMatrix<f64, N, N>,
+    nav: &mut LocalLevel,
+    from: usize,
+    steps: usize,
+    dt: f64,
+) {
+    for k in from..from + steps {
+        let increments = shaken(k, dt);
+        let before = nav.pva();
+        nav.step(&increments, dt);
+        let after = nav.pva();
+        let middle = middle(&before, &after);
+        let f_b = increments.dv * (1.0 / dt);
+        let system = model.form().system(&dynamics, &middle, f_b);
+        let seen = Truth::increments(increments.dtheta.as_array(), increments.dv.as_array());
+        let step = Propagation::exact(model, &system, &seen, dt);
+        let phi = step.phi();
+        *p = phi * *p * phi.transpose() + step.q();
+    }
+}
+
+fn middle(a: &Pva, b: &Pva) -> Pva {
+    let turn = (a.c_tb.inverse() * b.c_tb).as_rotation_vector() * 0.5;
+    Pva {
+        position: Geodetic::new(
+            0.5 * (a.position.lat + b.position.lat),
+            0.5 * (a.position.lon + b.position.lon),
+            0.5 * (a.position.h + b.position.h),
+        ),
+        v_t: (a.v_t + b.v_t) * 0.5,
+        c_tb: a.c_tb * Rot::from_rotation_vector(turn),
+    }
+}
+
+/// Largest relative difference of the sigmas over `seconds` of motion, 20 steps a time update.
+fn worst<const N: usize>(
+    form: Form,
+    nav: NavStates,
+    spec: &Spec,
+    vertical: Vertical,
+    seconds: f64,
+) -> (f64, String) {
+    let model = Model::<N>::new(form, nav, spec).unwrap();
+    let dynamics = ErrorDynamics { gravity: GRAVITY, vertical };
+    let dt = 0.01;
+    let mut truth = LocalLevel::new(&start(), GRAVITY, vertical);
+    let mut fast = LocalLevel::new(&start(), GRAVITY, vertical);
+    let sigmas = [3.0, 3.0, 5.0, 0.1, 0.1, 0.1, 3e-4, 3e-4, 3e-3];
+    let mut p = model.p0(&sigmas).unwrap();
+    let mut q = p;
+    let mut accumulator = Accumulator::new(&model, dynamics, &start());
+    let mut worst = (0.0, String::new());
+    for interval in 0..(seconds / dt) as usize / 20 {
+        dense(&model, dynamics, &mut p, &mut truth, interval * 20, 20, dt);
+        for k in interval * 20..interval * 20 + 20 {
+            fast.step(&shaken(k, dt), dt);
+            accumulator.step(&model, &fast.pva(), &shaken(k, dt), dt);
+        }
+        let step = accumulator.close(&model);
+        step.transport(&mut q);
+        step.diffuse(&mut q);
+        assert_eq!(q, q.transpose());
+        for k in 0..model.len() {
+            if p[(k, k)] > 0.0 {
+                let off = ((q[(k, k)] / p[(k, k)]).sqrt() - 1.0).abs();
+                if off > worst.0 {
+                    worst = (off, format!("{} at {} s", model.name(k), (interval + 1) as f64 * 0.2));
+                }
+            } else {
+                assert_eq!(q[(k, k)], 0.0);
+            }
+        }
+    }
+    worst
+}
+
+#[test]
+fn accumulated_sigmas_are_those_of_the_dense_product() {
+    let simple = sensors(1e-5, 1e-4, 1e-6, 1e-3);
+    for (form, vertical) in
+        [(Form::Phi, Vertical::Free), (Form::Psi, Vertical::Free), (Form::Phi, Vertical::Held)]
+    {
+        let (off, place) = worst::<15>(form, NavStates::ALL, &simple, vertical, 60.0);
+        assert!(off < 1e-7, "{form:?} {vertical:?}: {off:e} {place}");
+    }
+    for (nav, vertical) in [(NavStates::ALL, Vertical::Free), (NavStates::LEVEL, Vertical::Held)] {
+        let (off, place) = worst::<32>(Form::Phi, nav, &mixed(), vertical, 20.0);
+        assert!(off < 1e-6, "{vertical:?}: {off:e} {place}");
+    }
+}
