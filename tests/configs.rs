@@ -6,7 +6,10 @@ use std::{
 };
 
 use crate::recorded;
-use schuler::studies::{Context, Scenario, Silent, run, scenario::Study};
+use schuler::studies::{
+    Context, Scenario, Silent, run,
+    scenario::{Origin, Study},
+};
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -36,6 +39,10 @@ fn every_config_runs_and_its_expect_holds() {
         let log = match &scenario.study {
             Study::Navigate(navigate) => Some(&navigate.log.file),
             Study::Allan(log) => Some(&log.file),
+            Study::Align(align) => match &align.origin {
+                Origin::Log { log, .. } => Some(&log.file),
+                Origin::Simulated { .. } => None,
+            },
             Study::Imu(_) | Study::Drift(_) => None,
         };
         if data.is_none() && log.is_some_and(|log| !file.with_file_name(log).is_file()) {

@@ -1,5 +1,6 @@
 //! Scenarios, the studies that run them, and the records they leave.
 
+pub mod align;
 pub mod allan_study;
 mod channel;
 mod diagnostic;

@@ -1,7 +1,7 @@
 //! From a scenario to a record.
 
 use crate::{
-    Context, Error, Scenario, allan_study, drift, imu_study, navigate, record::Record, scenario::Study,
+    Context, Error, Scenario, align, allan_study, drift, imu_study, navigate, record::Record, scenario::Study,
 };
 
 /// Runs the study of a scenario and judges its `expect`. A pure function of the scenario and, for
@@ -11,6 +11,7 @@ pub fn run(scenario: &Scenario, context: &Context) -> Result<Record, Error> {
         Study::Imu(study) => imu_study::run(scenario, study, context)?,
         Study::Drift(_) => drift::run(scenario, context)?,
         Study::Navigate(_) => navigate::run(scenario, context)?,
+        Study::Align(_) => align::run(scenario, context)?,
         Study::Allan(_) => allan_study::run(scenario, context)?,
     };
     record.judge(scenario);

@@ -233,8 +233,33 @@ pub mod columns {
         "f_y_mps2",
         "f_z_mps2",
     ];
-    /// `way` of `errors.csv`.
-    pub const WAYS: [&str; 5] = ["nonlinear", "half_difference", "linear", "exact", "single_axis"];
+    /// `consistency.csv` of an alignment: mean NEES a degree of freedom with its 99 % band, and the square of the heading error
+    /// over that of its own standard deviation with its band.
+    pub const CONSISTENCY: [&str; 8] = [
+        "t_s",
+        "source",
+        "nees_ratio",
+        "nees_low_ratio",
+        "nees_high_ratio",
+        "heading_ratio",
+        "heading_low_ratio",
+        "heading_high_ratio",
+    ];
+    /// `windows.csv` of an alignment of a log: the attitude at the end of each window.
+    pub const WINDOWS: [&str; 5] = ["t_s", "source", "roll_rad", "pitch_rad", "yaw_rad"];
+    /// `way` of `errors.csv`: of a drift study, then of an alignment.
+    pub const WAYS: [&str; 10] = [
+        "nonlinear",
+        "half_difference",
+        "linear",
+        "exact",
+        "single_axis",
+        "run",
+        "rms",
+        "sigma",
+        "limit",
+        "navigated",
+    ];
 
     /// Whether a column holds counts, which are whole numbers.
     pub fn is_count(name: &str) -> bool {
@@ -244,7 +269,7 @@ pub mod columns {
     /// The unit that the last part of a column's name states.
     pub fn unit(name: &str) -> Option<Unit> {
         match name.rsplit_once('_')?.1 {
-            "count" => Some(Unit::ONE),
+            "count" | "ratio" => Some(Unit::ONE),
             "s" => Some(Unit::SECOND),
             "m" => Some(Unit::METRE),
             "mps" => Some(Unit::METRE.over(Unit::SECOND)),

@@ -32,6 +32,7 @@ impl Document {
             StudyKind::Imu => Study::Imu(self.imu_study(w)?),
             StudyKind::Drift => Study::Drift(self.drift(w)?),
             StudyKind::Navigate => Study::Navigate(self.navigate(w)?),
+            StudyKind::Align => Study::Align(self.align_study(w)?),
             StudyKind::Allan => Study::Allan(self.log(&self.required_log(w, "allan")?.value)?),
         };
         let rate = match &study {
@@ -39,6 +40,7 @@ impl Document {
             Study::Drift(s) => s.imu.rate,
             Study::Navigate(s) => s.log.rate,
             Study::Allan(log) => log.rate,
+            Study::Align(s) => s.rate(),
         };
         let output = self.output(w.output.as_ref(), rate)?;
         let expect = w.expect.iter().map(|e| self.expect(e, w.study.value)).collect::<Result<_, _>>()?;
@@ -56,14 +58,15 @@ impl Document {
         fn node<T>(key: &Option<At<T>>) -> Option<NodeId> {
             key.as_ref().map(|k| k.node)
         }
-        use StudyKind::{Allan, Drift, Imu, Navigate};
-        let keys: [(Option<NodeId>, &[StudyKind]); 7] = [
-            (node(&w.motion), &[Imu, Drift]),
-            (node(&w.imu), &[Imu, Drift]),
+        use StudyKind::{Align, Allan, Drift, Imu, Navigate};
+        let keys: [(Option<NodeId>, &[StudyKind]); 8] = [
+            (node(&w.motion), &[Imu, Drift, Align]),
+            (node(&w.imu), &[Imu, Drift, Align]),
             (node(&w.initial_errors), &[Drift]),
-            (node(&w.mechanization), &[Drift, Navigate]),
-            (node(&w.log), &[Navigate, Allan]),
+            (node(&w.mechanization), &[Drift, Navigate, Align]),
+            (node(&w.log), &[Navigate, Allan, Align]),
             (node(&w.align), &[Navigate]),
+            (node(&w.alignment), &[Align]),
             (w.output.as_ref().and_then(|output| node(&output.value.allan)), &[Imu]),
         ];
         for (node, studies) in keys {
@@ -175,7 +178,11 @@ impl Document {
         Err(self.diagnostic(Spot::Node(duration.node), problem).found(found).example("duration: 24 h"))
     }
 
-    fn mechanization(&self, w: &written::Scenario, study: &str) -> Result<Mechanization, Diagnostic> {
+    pub(super) fn mechanization(
+        &self,
+        w: &written::Scenario,
+        study: &str,
+    ) -> Result<Mechanization, Diagnostic> {
         let example = "mechanization: { frame: t, vertical: held, gravity: somigliana }";
         let w = &self.required(&w.mechanization, "mechanization", study, example)?.value;
         let written::Frame::T = w.frame.value;

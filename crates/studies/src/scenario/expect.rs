@@ -56,6 +56,9 @@ impl Document {
             StudyKind::Drift => columns::ERRORS.to_vec(),
             // Its parameters are estimates with intervals of their own; the deviations are facts of the log.
             StudyKind::Allan => vec!["deviation_radps", "deviation_mps2"],
+            StudyKind::Align => {
+                [&columns::ERRORS[3..], &columns::CONSISTENCY[2..], &columns::WINDOWS[2..]].concat()
+            }
             StudyKind::Navigate => {
                 [&columns::TRAJECTORY[..], &columns::ERRORS[3..], &columns::LOG[2..]].concat()
             }

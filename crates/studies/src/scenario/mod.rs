@@ -3,6 +3,7 @@
 //! Text becomes a `Document` (places), overrides change it, serde reads the written form (keys and words),
 //! and checking it gives the valid form: SI, radians, every invariant. The only way in is [`Scenario::load`].
 
+mod alignment;
 mod check;
 mod de;
 mod document;
@@ -24,6 +25,9 @@ mod tests;
 mod valid;
 mod written;
 
+pub use alignment::valid::{
+    AlignStudy, Coarse, FilterSettings, Knock, Method, MethodKind, Origin, Strategy, StrategyKind, Velocity,
+};
 pub use schema::json_schema;
 pub use sources::process_example;
 pub use valid::{

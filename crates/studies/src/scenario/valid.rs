@@ -6,6 +6,7 @@ use hifitime::Epoch;
 use schuler_frames::{Euler, Geodetic, Gravity};
 use schuler_imu::Spec;
 
+use super::alignment::valid::AlignStudy;
 use crate::log::{Content, LogSpec};
 
 /// A scenario that can be run.
@@ -38,6 +39,8 @@ pub enum Study {
     Navigate(Navigate),
     /// Allan deviations of a recorded log, and the error model in them.
     Allan(LogSpec),
+    /// Methods of alignment side by side.
+    Align(AlignStudy),
 }
 
 impl Scenario {
@@ -46,6 +49,7 @@ impl Scenario {
         match &self.study {
             Study::Imu(_) | Study::Allan(_) => None,
             Study::Drift(drift) => Some(&drift.mechanization),
+            Study::Align(align) => Some(&align.mechanization),
             Study::Navigate(navigate) => Some(&navigate.mechanization),
         }
     }
@@ -59,6 +63,7 @@ impl Study {
             Study::Drift(_) => "drift",
             Study::Navigate(_) => "navigate",
             Study::Allan(_) => "allan",
+            Study::Align(_) => "align",
         }
     }
 }

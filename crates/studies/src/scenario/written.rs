@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{
+    alignment::written::Alignment,
     de::At,
     schema::{Scalar, Sources, Title},
 };
@@ -37,6 +38,8 @@ pub struct Scenario {
     pub log: Option<At<Log>>,
     /// How the initial attitude is found from the log.
     pub align: Option<At<Align>>,
+    /// Methods of alignment and what they work with.
+    pub alignment: Option<At<Alignment>>,
     /// What is written, and how often.
     pub output: Option<At<Output>>,
     /// What the result is expected to be; checked by `run`.
@@ -58,6 +61,8 @@ pub enum StudyKind {
     Navigate,
     /// Allan deviations of a recorded log, and the error model in them.
     Allan,
+    /// Methods of alignment side by side, beside their analytic limits.
+    Align,
 }
 
 /// Place, time, attitude and velocity at t = 0.
