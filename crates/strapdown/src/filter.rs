@@ -6,6 +6,9 @@
 //!   or gathered over several IMU steps by an [`Accumulator`].
 //! - [`Measurement`]: what is compared with the navigator; [`Observation`] is what the filter sees of it.
 //! - [`Filter`]: estimates and covariance; time update, measurement update, gate, feedback.
+//! - [`Dual`]: covariance of the true errors where truth has another list of sources than the filter.
+//! - [`Observability`]: what measurements can tell and what they never will; [`smooth`]: estimates from all measurements.
+//! - [`strategy`]: fading and adaptive forms, which plug into the same filter.
 //!
 //! Everything is in SI units; errors are computed minus true, sensor errors measured minus true.
 //!
@@ -42,12 +45,14 @@
 mod accumulate;
 mod block;
 pub mod chi_square;
+mod dual;
 mod error;
 mod estimator;
 mod exact;
 mod gate;
 pub mod measurement;
 mod model;
+mod observability;
 mod observation;
 mod propagation;
 mod reset;
@@ -55,9 +60,12 @@ mod row;
 mod scalar_update;
 mod small;
 mod small_process;
+mod smoother;
 mod states;
+pub mod strategy;
 
 pub use accumulate::Accumulator;
+pub use dual::Dual;
 pub use error::FilterError;
 pub use estimator::{Filter, Outcome, Tally};
 pub use gate::Gate;
@@ -66,8 +74,10 @@ pub use measurement::{
     ZeroVelocity,
 };
 pub use model::Model;
+pub use observability::{Observability, limit_covariance};
 pub use observation::{MAX_EXTRA, Now, Observation};
 pub use propagation::Propagation;
 pub use reset::{attitude_reset, corrected};
 pub use row::Row;
+pub use smoother::{Record, smooth};
 pub use states::{Form, NavState, NavStates};

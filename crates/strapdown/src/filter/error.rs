@@ -34,6 +34,14 @@ pub enum FilterError {
         /// Row of the measurement.
         row: usize,
     },
+    /// Correlated noise where only independent noise is taken.
+    #[error("the noise of rows {row} and {column} must be independent here")]
+    Correlated {
+        /// One row.
+        row: usize,
+        /// The other.
+        column: usize,
+    },
     /// A standard deviation that is negative or not a finite number.
     #[error("state {state} needs a standard deviation of zero or more, not {sigma}")]
     Sigma {

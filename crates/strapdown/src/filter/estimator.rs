@@ -27,6 +27,9 @@ pub struct Filter<const N: usize> {
     pub(crate) taken_out: SVector<f64, N>,
     /// When a measurement is refused.
     pub gate: Gate,
+    /// Variances to which a [`Strategy`](super::strategy::Strategy) may inflate `p` at most; it never takes a variance below what it would have been
+    /// without it. At the start those of the start; `None` for no cap.
+    pub cap: Option<[f64; N]>,
     tally: Tally,
 }
 
@@ -65,7 +68,15 @@ impl<const N: usize> Filter<N> {
     /// [`FilterError::Sigma`] for a deviation that is negative or not finite.
     pub fn new(model: Model<N>, nav_sigma: &[f64; 9]) -> Result<Self, FilterError> {
         let (x, p) = (model.x0(), model.p0(nav_sigma)?);
-        Ok(Filter { model, x, p, taken_out: SVector::zeros(), gate: Gate::Off, tally: Tally::default() })
+        Ok(Filter {
+            model,
+            x,
+            p,
+            taken_out: SVector::zeros(),
+            gate: Gate::Off,
+            cap: Some(core::array::from_fn(|k| p[(k, k)])),
+            tally: Tally::default(),
+        })
     }
 
     /// What the states are.

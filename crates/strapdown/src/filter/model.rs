@@ -235,6 +235,54 @@ impl<const N: usize> Model<N> {
         Ok(p)
     }
 
+    /// The state of `other` that is the same as state `k`: same navigation error, or same component and number, or same
+    /// name.
+    pub(crate) fn twin_in<const M: usize>(&self, k: usize, other: &Model<M>) -> Option<usize> {
+        if let Some(&full) = self.full().get(k) {
+            return other.nav_index(NavState::ALL[full]);
+        }
+        let block = self.blocks().find(|b| b.states().contains(&k))?;
+        let same = |b: &&Block| {
+            b.len == block.len
+                && b.part == block.part
+                && match (&b.origin.source, &block.origin.source) {
+                    (Some(a), Some(b)) => a.is(b),
+                    (None, None) => b.origin.name == block.origin.name,
+                    _ => false,
+                }
+        };
+        other.blocks().find(same).map(|b| b.first + k - block.first)
+    }
+
+    /// Dynamics of all states under a constant `system` of the model's form, the sensors having `seen` the same all the
+    /// time, 1/s.
+    pub fn dynamics(&self, system: &System, seen: &Truth) -> SMatrix<f64, N, N> {
+        let inputs = self.inputs(seen, 1.0);
+        let mut f = SMatrix::zeros();
+        for (i, &full_i) in self.full().iter().enumerate() {
+            for (j, &full_j) in self.full().iter().enumerate() {
+                f[(i, j)] = system.f[(full_i, full_j)];
+            }
+        }
+        for block in self.blocks() {
+            let column = Vector3::from(block.column(&inputs));
+            let enters = match block.instrument() {
+                Some(Instrument::Gyro) => system.b_gyro * column,
+                Some(Instrument::Accel) => system.b_accel * column,
+                None => SMatrix::zeros(),
+            };
+            for (k, s) in block.states().enumerate() {
+                for (i, &full_i) in self.full().iter().enumerate() {
+                    f[(i, s)] = enters[full_i] * block.c[k];
+                }
+                for (l, t) in block.states().enumerate() {
+                    f[(s, t)] = block.a[k][l];
+                }
+            }
+        }
+        f
+    }
+
     pub(crate) fn inputs(&self, seen: &Truth, dt: f64) -> Inputs {
         Inputs::new(seen, dt, self.calibration)
     }

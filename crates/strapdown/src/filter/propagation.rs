@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::Model;
+use super::{Model, Row};
 
 /// The transition matrix and the process noise of all states over an interval, stored as sparse as they are:
 ///
@@ -181,6 +181,28 @@ impl<const N: usize> Propagation<N> {
             }
             s += len;
         }
+    }
+
+    /// Q h'.
+    pub(crate) fn noise_times(&self, row: &Row<N>) -> [f64; N] {
+        let mut out = [0.0; N];
+        for (k, h) in row.pairs().filter(|(k, _)| *k < self.n) {
+            if k < self.m {
+                for (out, q) in out[..self.n].iter_mut().zip(&self.q_n[k][..self.n]) {
+                    *out += h * q;
+                }
+                continue;
+            }
+            for i in 0..self.m {
+                out[i] += h * self.q_n[i][k];
+            }
+            let second = k > self.m && self.paired[k - 1];
+            let first = if second { k - 1 } else { k };
+            for l in 0..self.block(first) {
+                out[first + l] += h * self.q_s[k][l];
+            }
+        }
+        out
     }
 
     /// P := P + Q.

@@ -2,6 +2,7 @@
 
 use schuler_frames::{B, Euler, Geodetic, Gravity, Rot, T, Vec3, earth};
 use schuler_imu::Instrument::{Accel, Gyro};
+use schuler_imu::process::LinearModel;
 use schuler_imu::{Source, Spec, Truth};
 use schuler_strapdown::filter::{Form, Model, NavStates, Propagation};
 use schuler_strapdown::{ErrorDynamics, Pva, Vertical};
@@ -11,6 +12,7 @@ pub const DEG: f64 = std::f64::consts::PI / 180.0;
 pub const DEGPH: f64 = DEG / 3600.0;
 pub const DEGPRTH: f64 = DEG / 60.0;
 pub const UG: f64 = 9.80665e-6;
+pub const ARCMIN: f64 = DEG / 60.0;
 pub const GRAVITY: Gravity = Gravity::Somigliana;
 pub const HELD: ErrorDynamics = ErrorDynamics { gravity: GRAVITY, vertical: Vertical::Held };
 
@@ -49,12 +51,24 @@ pub fn sensors(arw: f64, vrw: f64, bias_g: f64, bias_a: f64) -> Spec {
     .unwrap()
 }
 
+/// Without the bias of the accelerometer z, which nothing at rest and level depends on.
+pub fn ten(spec: &Spec) -> Spec {
+    spec.keep(|c| {
+        !(c.instrument() == Accel && c.label() == "z" && c.source().process().kind().name() == "constant")
+    })
+}
+
 /// The ten states of static alignment: velocity north and east, attitude, accelerometer x and y, gyro x, y and z.
 pub fn ten_states(spec: &Spec) -> Model<10> {
-    let spec = spec.keep(|c| {
-        !(c.instrument() == Accel && c.label() == "z" && c.source().process().kind().name() == "constant")
-    });
-    Model::new(Form::Phi, NavStates::LEVEL, &spec).unwrap()
+    Model::new(Form::Phi, NavStates::LEVEL, &ten(spec)).unwrap()
+}
+
+/// A Gauss-Markov process by itself.
+pub fn gauss_markov(sigma: f64, tau: f64) -> LinearModel {
+    let source =
+        Source::named(Accel, "bias", "gauss_markov", &[("sigma", sigma.into()), ("tau", tau.into())])
+            .unwrap();
+    source.components().next().unwrap().evolution().linear_model()
 }
 
 /// The exact time update at rest.

@@ -14,7 +14,6 @@ fn every_row_of_the_reference_table_to_1e_9() {
     assert!(rows.len() == 30);
     let mut compared = 0;
     let mut start = 0;
-    let mut worst = 0f64;
     while start < rows.len() {
         let case = &rows[start][..5];
         let end = start + rows[start..].iter().take_while(|r| &r[..5] == case).count();
@@ -37,13 +36,11 @@ fn every_row_of_the_reference_table_to_1e_9() {
             }
             for k in 0..10 {
                 let off = (filter.sigma(k) / row[6 + k] - 1.0).abs();
-                worst = worst.max(off);
                 assert!(off < 1e-9, "{case:?} at {t} s, state {}: {off:e}", filter.model().name(k));
                 compared += 1;
             }
         }
         start = end;
     }
-    assert!(compared == 300, "{compared}, worst {worst:e}");
-    println!("{compared} numbers, worst {worst:e}");
+    assert_eq!(compared, 300);
 }

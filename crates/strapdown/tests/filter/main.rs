@@ -3,4 +3,10 @@
 mod accumulated;
 mod common;
 mod covariance_table;
+mod dual;
+mod laws;
+mod observability;
 mod rows;
+mod simulation;
+mod smoother;
+mod strategies;
