@@ -91,7 +91,12 @@ fn a_stuck_axis_is_named() {
     let note = record.notes.iter().find(|n| n.starts_with("gyro.z")).unwrap();
     assert!(note.contains("constant column"), "{note}");
     assert_eq!(record.figures.len(), 5);
-    assert!(record.texts[0].1.contains("gyro: []"));
+    let sources = &record.texts[0].1;
+    assert!(
+        sources.contains("gyro:\n  # z: not in this log, or without a fit; without errors here."),
+        "{sources}"
+    );
+    assert!(sources.contains(", 0 deg/sqrt(h)]"), "{sources}");
 }
 
 #[test]
