@@ -28,8 +28,9 @@ pub(super) struct NpyRows {
     names: [String; SLOTS],
     /// The names of all columns.
     pub titles: Vec<String>,
-    /// Whole rows, and the byte that the next one begins at.
+    /// Some rows as they stand, their numbers, and how many of these are delivered.
     block: Vec<u8>,
+    numbers: Vec<[f64; SLOTS]>,
     at: usize,
     /// Rows delivered so far.
     count: u64,
@@ -58,6 +59,7 @@ impl NpyRows {
             names: names(wanted),
             titles,
             block: Vec::new(),
+            numbers: Vec::new(),
             at: 0,
             count: 0,
         })
@@ -65,21 +67,15 @@ impl NpyRows {
 
     /// The next row, `None` at the end.
     pub fn advance(&mut self) -> Result<Option<[f64; SLOTS]>, Error> {
-        if self.at == self.block.len() && !self.refill()? {
+        if self.at == self.numbers.len() && !self.refill()? {
             return Ok(None);
         }
-        let row = &self.block[self.at..self.at + self.width];
-        let mut numbers = [0.0; SLOTS];
-        let mut finite = true;
-        for (slot, field) in &self.fields {
-            let value = field.kind.value(&row[field.offset..]);
-            finite &= value.is_finite();
-            numbers[*slot] = value;
-        }
-        if !finite {
+        let numbers = self.numbers[self.at];
+        // A sum is finite where all of its parts are; where they are huge, a closer look decides.
+        if !numbers.iter().sum::<f64>().is_finite() && !numbers.iter().all(|x| x.is_finite()) {
             return Err(self.not_finite(&numbers));
         }
-        self.at += self.width;
+        self.at += 1;
         self.count += 1;
         Ok(Some(numbers))
     }
@@ -91,11 +87,16 @@ impl NpyRows {
         let size = rows as usize * self.width;
         self.at = 0;
         self.block.clear();
+        self.numbers.clear();
         // One byte more than there should be tells an array that ends from one that goes on.
         let limit = size as u64 + u64::from(rows == rest);
         let taken = self.bytes.by_ref().take(limit).read_to_end(&mut self.block);
         let taken = taken.map_err(|e| fault::reading(&self.file, self.count, e))?;
         if taken == size {
+            self.numbers.resize(rows as usize, [0.0; SLOTS]);
+            for (slot, field) in &self.fields {
+                field.column(&self.block, self.width, *slot, &mut self.numbers);
+            }
             return Ok(size > 0);
         }
         let whole = self.count + (taken / self.width) as u64;
@@ -140,19 +141,30 @@ impl NpyRows {
     }
 }
 
-impl Kind {
-    /// The number that `bytes` begin with.
-    #[inline]
-    fn value(self, bytes: &[u8]) -> f64 {
-        fn head<const N: usize>(bytes: &[u8]) -> [u8; N] {
-            *bytes.first_chunk().expect("invariant: a field lies within its row")
+impl Field {
+    /// Takes the numbers of this column from rows of `width` bytes into `slot`.
+    fn column(&self, block: &[u8], width: usize, slot: usize, numbers: &mut [[f64; SLOTS]]) {
+        match self.kind {
+            Kind::F8 => self.each(block, width, slot, numbers, f64::from_le_bytes),
+            Kind::F4 => self.each(block, width, slot, numbers, |b| f64::from(f32::from_le_bytes(b))),
+            Kind::I8 => self.each(block, width, slot, numbers, |b| i64::from_le_bytes(b) as f64),
+            Kind::I4 => self.each(block, width, slot, numbers, |b| f64::from(i32::from_le_bytes(b))),
+            Kind::I2 => self.each(block, width, slot, numbers, |b| f64::from(i16::from_le_bytes(b))),
         }
-        match self {
-            Kind::F8 => f64::from_le_bytes(head(bytes)),
-            Kind::F4 => f64::from(f32::from_le_bytes(head(bytes))),
-            Kind::I8 => i64::from_le_bytes(head(bytes)) as f64,
-            Kind::I4 => f64::from(i32::from_le_bytes(head(bytes))),
-            Kind::I2 => f64::from(i16::from_le_bytes(head(bytes))),
+    }
+
+    #[inline]
+    fn each<const N: usize>(
+        &self,
+        block: &[u8],
+        width: usize,
+        slot: usize,
+        numbers: &mut [[f64; SLOTS]],
+        number: impl Fn([u8; N]) -> f64,
+    ) {
+        for (row, numbers) in block.chunks_exact(width).zip(numbers) {
+            let bytes = row[self.offset..].first_chunk().expect("invariant: a field lies within its row");
+            numbers[slot] = number(*bytes);
         }
     }
 }
