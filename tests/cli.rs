@@ -19,10 +19,10 @@ expect:
 ";
 
 /// A folder of its own for each test, gone afterwards.
-struct Place(PathBuf);
+pub struct Place(pub PathBuf);
 
 impl Place {
-    fn new(name: &str) -> Self {
+    pub fn new(name: &str) -> Self {
         let path = std::env::temp_dir().join(format!("schuler-cli-{name}-{}", std::process::id()));
         let _ = fs::remove_dir_all(&path);
         fs::create_dir_all(&path).expect("a folder");
@@ -30,13 +30,13 @@ impl Place {
         Place(path)
     }
 
-    fn schuler(&self, arguments: &[&str]) -> Output {
+    pub fn schuler(&self, arguments: &[&str]) -> Output {
         let mut command = Command::new(assert_cmd::cargo::cargo_bin!("schuler"));
         command.current_dir(&self.0).env_remove("SCHULER_DATA").args(arguments).output().expect("it starts")
     }
 
     /// Everything below the folder but the scenario.
-    fn left(&self) -> Vec<PathBuf> {
+    pub fn left(&self) -> Vec<PathBuf> {
         let entries = fs::read_dir(&self.0).expect("a folder").map(|e| e.expect("an entry").path());
         entries.filter(|path| path.extension().is_none_or(|e| e != "yaml")).collect()
     }
@@ -48,7 +48,7 @@ impl Drop for Place {
     }
 }
 
-fn text(bytes: &[u8]) -> String {
+pub fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 

@@ -1,5 +1,6 @@
 //! Tests of the program as users meet it.
 
+mod allan;
 mod cli;
 mod configs;
 mod recorded;

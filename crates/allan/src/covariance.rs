@@ -8,6 +8,10 @@ use crate::Term;
 /// For Gaussian noise Cov = 2 / (4 tau_i² tau_j² M_i M_j) times the sum over all pairs of second differences of their
 /// squared covariance, which depends on the lag alone; a deterministic term enters only by its product with a
 /// random one. No approximation but the sum over lags, which is exact near its kinks and geometric between.
+///
+/// Differences that start every m/8 samples lose next to nothing of noise that is correlated over an averaging time. Of
+/// quantization they lose what they leave out: its differences correlate only where they share a sample, so that of two
+/// estimates the denser one counts, and products with it grow by its stride.
 #[derive(Debug, Clone)]
 pub(crate) struct CovarianceTable {
     terms: Vec<Term>,
@@ -19,6 +23,8 @@ pub(crate) struct CovarianceTable {
 #[derive(Debug, Clone)]
 pub(crate) struct Layout {
     pub factors: Vec<usize>,
+    /// Differences start every so many samples: 1 for full overlap.
+    pub strides: Vec<usize>,
     pub n_phase: usize,
     pub tau0: f64,
 }
@@ -44,6 +50,7 @@ impl CovarianceTable {
                 let (tau_i, tau_j) = (mi as f64 * layout.tau0, mj as f64 * layout.tau0);
                 let scale = 2.0 / (4.0 * (tau_i * tau_j).powi(2) * count_i as f64 * count_j as f64);
                 // A new sinusoid needs no sum.
+                let sparse = layout.strides[i].min(layout.strides[j]) as f64;
                 let sums = more.iter().any(|t| summed(*t, Term::White));
                 for (lag, weight) in if sums { lags(mi, mj, count_i, count_j) } else { Vec::new() } {
                     let pairs_at_lag = (count_i as i64).min(count_j as i64 - lag) - 0.max(-lag);
@@ -56,7 +63,9 @@ impl CovarianceTable {
                     for p in 0..terms.len() {
                         for q in p..terms.len() {
                             if q >= old && summed(terms[p], terms[q]) {
-                                tables[k][(i, j)] += w * c[p] * c[q];
+                                let quantized = [terms[p], terms[q]].contains(&Term::Quantization);
+                                let stride = if quantized { sparse } else { 1.0 };
+                                tables[k][(i, j)] += stride * w * c[p] * c[q];
                             }
                             k += 1;
                         }
@@ -200,7 +209,7 @@ mod tests {
 
     #[test]
     fn the_sum_over_lags_is_that_over_all_pairs() {
-        let layout = Layout { factors: vec![1, 2, 8, 32, 100], n_phase: 401, tau0: 0.5 };
+        let layout = Layout { factors: vec![1, 2, 8, 32, 100], strides: vec![1; 5], n_phase: 401, tau0: 0.5 };
         let sets: [&[Term]; 4] = [
             &[Term::White],
             &[Term::Flicker, Term::RandomWalk],
@@ -222,7 +231,8 @@ mod tests {
 
     #[test]
     fn the_diagonal_is_what_the_degrees_of_freedom_say() {
-        let layout = Layout { factors: vec![1, 16, 512, 8192], n_phase: 32_769, tau0: 0.1 };
+        let layout =
+            Layout { factors: vec![1, 16, 512, 8192], strides: vec![1; 4], n_phase: 32_769, tau0: 0.1 };
         for (term, noise) in [
             (Term::Quantization, crate::NoiseType::Quantization),
             (Term::White, crate::NoiseType::White),
@@ -241,7 +251,7 @@ mod tests {
     /// A sinusoid of amplitude A in white noise: rms error of A² / A² = sqrt(8 N² / (A² T)).
     #[test]
     fn a_sinusoid_scatters_with_the_noise_at_its_frequency() {
-        let layout = Layout { factors: vec![4, 8], n_phase: 10_001, tau0: 0.1 };
+        let layout = Layout { factors: vec![4, 8], strides: vec![1; 2], n_phase: 10_001, tau0: 0.1 };
         let (line, n2, a2) = (Term::Sinusoid { f0: 1.0 }, 0.01, 4.0);
         let table = CovarianceTable::new(&layout, &[Term::White, line]);
         let beat = table.at(&[n2, a2])[(0, 1)] - table.at(&[n2, 0.0])[(0, 1)];

@@ -68,7 +68,10 @@ impl Curve {
                 what: "an estimate at the averaging times asked for",
             });
         }
-        let points = factors.iter().map(|m| estimator.point(phase, *m)).collect();
+        let points = match estimator {
+            Estimator::Overlapping => overlapping(phase, &factors),
+            _ => factors.iter().map(|m| estimator.point(phase, *m)).collect(),
+        };
         Ok(Self { estimator, tau0: phase.tau0(), n_phase: n, points })
     }
 
@@ -110,7 +113,7 @@ impl Estimator {
                 let x = every(x, m);
                 (second_difference_squares(&x, 1), x.len() - 2, 2.0)
             }
-            Estimator::Overlapping => (second_difference_squares(x, m), x.len() - 2 * m, 2.0),
+            Estimator::Overlapping => return overlapping(phase, &[m])[0],
             Estimator::Modified => modified(x, m),
             Estimator::HadamardNonOverlapping => {
                 let x = every(x, m);
@@ -121,6 +124,27 @@ impl Estimator {
         };
         Point { m, tau, variance: sum / (scale * tau * tau * terms as f64), terms }
     }
+}
+
+/// Phase samples whose differences at all distances are taken before the next ones are.
+const BLOCK: usize = 4096;
+
+/// Overlapping variances at all `factors`, block by block: what one averaging time reads the next one finds in the
+/// cache, and at octaves the end of a difference is the middle of the next.
+fn overlapping(phase: &Phase, factors: &[usize]) -> Vec<Point> {
+    let (x, n) = (phase.samples(), phase.samples().len());
+    let mut sums = vec![0.0; factors.len()];
+    for start in (0..n).step_by(BLOCK) {
+        for (sum, m) in sums.iter_mut().zip(factors) {
+            let end = n.min(start + BLOCK + 2 * m);
+            *sum += second_difference_squares(&x[start..end], *m);
+        }
+    }
+    let point = |(sum, m): (f64, &usize)| {
+        let (tau, terms) = (*m as f64 * phase.tau0(), n - 2 * m);
+        Point { m: *m, tau, variance: sum / (2.0 * tau * tau * terms as f64), terms }
+    };
+    sums.into_iter().zip(factors).map(point).collect()
 }
 
 fn every(x: &[f64], m: usize) -> Vec<f64> {

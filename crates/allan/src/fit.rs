@@ -100,6 +100,7 @@ impl Fitter {
             part.points.retain(|p| factors.binary_search(&p.m).is_ok());
             let layout = Layout {
                 factors: part.points.iter().map(|p| p.m).collect(),
+                strides: strides(&part),
                 n_phase: curve.n_phase,
                 tau0: curve.tau0,
             };
@@ -130,7 +131,10 @@ impl Fitter {
         let on = |data: &FitData| -> Result<FitData, AllanError> {
             let mut part = curve.clone();
             part.points.retain(|p| data.layout.factors.binary_search(&p.m).is_ok());
-            if curve.n_phase != data.layout.n_phase || part.points.len() != data.layout.factors.len() {
+            let same = curve.n_phase == data.layout.n_phase
+                && part.points.len() == data.layout.factors.len()
+                && strides(&part) == data.layout.strides;
+            if !same {
                 return Err(AllanError::FitLayout);
             }
             if let Some(p) = part.points.iter().find(|p| !(p.variance > 0.0 && p.variance.is_finite())) {
@@ -160,6 +164,12 @@ impl Fitter {
             duration: n as f64 * curve.tau0,
         })
     }
+}
+
+/// Samples between the starts of two differences.
+fn strides(curve: &Curve) -> Vec<usize> {
+    let whole = |p: &crate::Point| p.terms == curve.n_phase - 2 * p.m;
+    curve.points.iter().map(|p| if whole(p) { 1 } else { p.m / crate::pyramid::STRIDE }).collect()
 }
 
 /// Fits the error model to one curve; see [`Fitter`], which is quicker for many.

@@ -11,7 +11,11 @@ const KEEP: usize = 2 * STRIDE;
 /// Allan variance at all octaves of a stream, in one pass, with memory for one block of phase per octave.
 ///
 /// At averaging factor m the second differences start every m/8 samples instead of every sample. The price in
-/// variance against the full overlap, from theory: PRICE
+/// variance against the full overlap, from theory: none up to m = 8; above, 2 % for white noise, 0.04 % for flicker, less
+/// than 0.001 % for random walk. Quantization, whose differences hardly correlate, pays a factor of m/8 there, where it has
+/// long been known from the short times. [`crate::pyramid_edf`] and [`crate::fit`] count with it.
+///
+/// Speed: 2 ns a sample for all octaves together, the same from 1e5 to 1e8 samples (`cargo bench -p schuler-allan`).
 #[derive(Debug, Clone)]
 pub struct Pyramid {
     tau0: f64,

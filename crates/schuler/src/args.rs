@@ -19,6 +19,8 @@ pub struct Args {
 pub enum Command {
     /// Run scenarios; write tables, figures and a summary of each into a folder.
     Run(RunArgs),
+    /// Allan deviations of a recorded log at rest, and the error model that they show.
+    Allan(AllanArgs),
     /// Read scenarios and say whether they are valid; nothing is run or written.
     Check(ScenarioArgs),
     /// Print the JSON Schema of the scenario format.
@@ -58,6 +60,48 @@ pub struct RunArgs {
     #[command(flatten)]
     pub scenarios: ScenarioArgs,
     /// Folder of the results; out/<name of the scenario> when absent. Of several scenarios, each gets a folder in it.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Folder of recorded logs.
+    #[arg(long, value_name = "DIR", env = "SCHULER_DATA")]
+    pub data: Option<PathBuf>,
+    /// Print nothing but errors.
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// Arguments of `allan`.
+#[derive(Debug, ClapArgs)]
+#[command(after_help = "Examples:
+  schuler allan imu.csv --rate 100Hz --columns gyro=gx,gy,gz accel=ax,ay,az --scale gyro='0.1 arcsec' accel='1 mm/s'
+  schuler allan gyro.npy --rate 1kHz --columns gyro=1 --scale gyro='1 deg/s'
+
+The result is that of a scenario with `study: allan`.")]
+pub struct AllanArgs {
+    /// The log: CSV or npy, either also gzipped; looked up in this folder, then in that of `--data`.
+    pub log: String,
+    /// Samples a second: 100Hz.
+    #[arg(long, value_name = "QUANTITY")]
+    pub rate: String,
+    /// Columns of x, y, z (or of the first of them), by name or number from 1; what the header says when absent.
+    #[arg(long, value_name = "INSTRUMENT=X,Y,Z", num_args = 1..)]
+    pub columns: Vec<String>,
+    /// What one count is, one for an instrument or three; its unit says what it is of where that is not named.
+    #[arg(long, value_name = "INSTRUMENT=QUANTITY", num_args = 1..)]
+    pub scale: Vec<String>,
+    /// What a row holds, increments or rates; told by the unit of `--scale` when absent.
+    #[arg(long, value_name = "WORD")]
+    pub content: Option<String>,
+    /// Column of time, which is then checked for gaps and order.
+    #[arg(long, value_name = "COLUMN")]
+    pub time: Option<String>,
+    /// Sensor axes that point forward, right and down: y,x,-z for a sensor with x right, y forward, z up.
+    #[arg(long, value_name = "X,Y,Z", value_delimiter = ',', allow_hyphen_values = true)]
+    pub axes: Vec<String>,
+    /// What is written: csv, png, svg; csv and png when absent.
+    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',')]
+    pub formats: Vec<String>,
+    /// Folder of the results; out/<name of the log> when absent.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Folder of recorded logs.

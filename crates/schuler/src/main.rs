@@ -1,5 +1,6 @@
 //! The command line of Schuler.
 
+mod allan;
 mod args;
 mod progress;
 mod report;
@@ -35,6 +36,7 @@ fn main() -> ExitCode {
     };
     let end = match args.command {
         Command::Run(args) => run::run(&args),
+        Command::Allan(args) => allan::allan(&args),
         Command::Check(args) => run::check(&args),
         Command::Schema => print(&schuler_studies::scenario::json_schema()),
         Command::Sources { markdown: false } => print(&tables::sources()),

@@ -51,7 +51,7 @@ pub fn run(args: &RunArgs) -> io::Result<End> {
     }
     let mut end = End::Success;
     for (scenario, folder) in &jobs {
-        let record = match one(args, scenario, folder) {
+        let record = match one(args.data.as_deref(), args.quiet, scenario, folder) {
             Ok(record) => record,
             Err(error) => {
                 report(&error)?;
@@ -72,9 +72,10 @@ pub fn run(args: &RunArgs) -> io::Result<End> {
     Ok(end)
 }
 
-fn one(args: &RunArgs, scenario: &Scenario, folder: &Folder) -> Result<Record, Error> {
-    let bar = Bar::new(args.quiet);
-    let context = Context { data: args.data.clone(), progress: &bar };
+/// Runs a scenario and leaves the results in `folder`; `data` is the folder of recorded logs.
+pub fn one(data: Option<&Path>, quiet: bool, scenario: &Scenario, folder: &Folder) -> Result<Record, Error> {
+    let bar = Bar::new(quiet);
+    let context = Context { data: data.map(Path::to_path_buf), progress: &bar };
     let result = run_study(scenario, &context);
     bar.finish();
     let mut record = result?;

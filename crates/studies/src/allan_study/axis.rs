@@ -5,9 +5,12 @@ use schuler_allan::{
     pyramid_edf, sun_eq3, variance_factors,
 };
 use schuler_imu::Instrument;
+use schuler_strapdown::Increments;
+
+use crate::log::{Content, LogSpec};
 
 /// More samples than this are not kept but go into the pyramid: six axes take 200 MB.
-const KEPT: usize = 1 << 22;
+pub const KEPT: usize = 1 << 22;
 /// Increments that a pyramid takes at a time.
 const BLOCK: usize = 4096;
 /// Estimates of the overlapping deviation per octave; the fit uses every second.
@@ -18,9 +21,15 @@ const CONFIDENCE: f64 = 0.95;
 pub struct Channel {
     name: String,
     instrument: Instrument,
+    /// Along x, y or z: 0, 1 or 2.
+    axis: usize,
     dt: f64,
+    /// What one count is of an increment, as long as all increments are whole counts.
+    count: Option<f64>,
     /// Mean rates, as long as they are few.
     kept: Vec<f64>,
+    /// How many are few.
+    limit: usize,
     /// Takes over where they are many.
     pyramid: Option<Result<Pyramid, AllanError>>,
 }
@@ -30,6 +39,8 @@ pub struct Axis {
     /// `gyro.x`.
     pub name: String,
     pub instrument: Instrument,
+    /// What one count is of an increment (rad, m/s), where all increments are whole counts.
+    pub count: Option<f64>,
     pub found: Result<Found, AllanError>,
 }
 
@@ -58,24 +69,34 @@ pub struct Estimate {
 }
 
 impl Channel {
-    /// Gyros and accelerometers along x, y, z.
-    pub fn all(dt: f64) -> Vec<Channel> {
-        let of = |instrument: Instrument| {
-            ["x", "y", "z"].map(|axis| Channel {
-                name: format!("{instrument}.{axis}"),
+    /// The body axes that a log has, each with at most `limit` samples kept.
+    pub fn all(log: &LogSpec, limit: usize) -> Vec<Channel> {
+        let of = |instrument: Instrument, axis: usize| {
+            let sensor = log.axes.sensor_axis(axis);
+            (sensor < log.columns.of(instrument).len()).then(|| Channel {
+                name: format!("{instrument}.{}", ["x", "y", "z"][axis]),
                 instrument,
-                dt,
+                axis,
+                dt: 1.0 / log.rate,
+                count: (log.content == Content::Increments).then(|| log.scale.of(instrument)[sensor].abs()),
                 kept: Vec::new(),
+                limit,
                 pyramid: None,
             })
         };
-        Instrument::ALL.into_iter().flat_map(of).collect()
+        Instrument::ALL.into_iter().flat_map(|i| (0..3).filter_map(move |axis| of(i, axis))).collect()
     }
 
-    /// Takes the next increment.
-    pub fn push(&mut self, increment: f64) {
+    /// Takes the increment of this axis from the next sample.
+    pub fn push(&mut self, increments: &Increments) {
+        let vector = match self.instrument {
+            Instrument::Gyro => increments.dtheta.as_array(),
+            Instrument::Accel => increments.dv.as_array(),
+        };
+        let increment = vector[self.axis];
+        self.count = self.count.filter(|count| is_whole(increment / count));
         self.kept.push(increment / self.dt);
-        if self.pyramid.is_some() && self.kept.len() >= BLOCK || self.kept.len() >= KEPT {
+        if self.pyramid.is_some() && self.kept.len() >= BLOCK || self.kept.len() >= self.limit {
             self.flush();
         }
     }
@@ -93,7 +114,7 @@ impl Channel {
     /// Estimates and fits.
     pub fn finish(mut self) -> Axis {
         let found = if self.pyramid.is_some() { self.streamed() } else { self.whole() };
-        Axis { name: self.name, instrument: self.instrument, found }
+        Axis { name: self.name, instrument: self.instrument, count: self.count, found }
     }
 
     fn streamed(&mut self) -> Result<Found, AllanError> {
@@ -141,6 +162,12 @@ impl Channel {
         let with_intervals = with_intervals.collect::<Result<_, _>>()?;
         Ok(Found::of(&curves[0], with_intervals, false))
     }
+}
+
+/// Is this a whole number that is no accident? Small fractions are none, and neither are huge numbers.
+fn is_whole(x: f64) -> bool {
+    let whole = x.round();
+    (x - whole).abs() <= 1e-9 * whole.abs() && whole.abs() < 1e8
 }
 
 impl Found {

@@ -2,6 +2,7 @@
 
 mod axis;
 mod figures;
+mod notes;
 mod report;
 #[cfg(test)]
 mod tests;
@@ -12,12 +13,13 @@ use crate::log::{LogReader, find};
 use crate::record::Record;
 use crate::scenario::Study;
 use crate::{Context, Error, Scenario};
-use axis::{Axis, Channel};
+use axis::{Axis, Channel, KEPT};
 
 /// Runs an Allan study: reads the log once, estimates the deviations of each sensor axis, fits the error model.
 ///
 /// Up to four million samples are kept, for all estimators on a fine grid; beyond, the overlapping deviation at
-/// octaves is made on the way in memory that does not grow. The axes are those of the body, by `log.axes`.
+/// octaves is made on the way in memory that does not grow ([`schuler_allan::Pyramid`] states its price in variance). The
+/// axes are those of the body, by `log.axes`; a log may lack some of them.
 ///
 /// The record has `allan_gyro` and `allan_accel` (every estimate with its 95 % interval), `parameters` (SI), the summary
 /// in the units of the field, a picture of each axis, and `sources.yaml`, which goes into a scenario as `imu`.
@@ -29,16 +31,13 @@ pub fn run(scenario: &Scenario, context: &Context) -> Result<Record, Error> {
         return Err(Error::Unsupported { what: format!("study {} as allan", scenario.study.name()) });
     };
     let file = find(log, context.data.as_deref(), &scenario.file)?;
-    context.progress.begin("log", 1);
-    let mut channels = Channel::all(1.0 / log.rate);
-    for sample in LogReader::open(log, &file)? {
+    let mut channels = Channel::all(log, KEPT);
+    for sample in LogReader::open(log, &file)?.watched(context.progress) {
         let increments = sample?.increments;
-        let values = [increments.dtheta.as_array(), increments.dv.as_array()].concat();
-        for (channel, value) in channels.iter_mut().zip(values) {
-            channel.push(value);
+        for channel in &mut channels {
+            channel.push(&increments);
         }
     }
-    context.progress.advance(1);
     context.progress.begin("fit", channels.len() as u64);
     let axes: Vec<Axis> = channels
         .into_par_iter()

@@ -3,14 +3,15 @@
 use schuler_allan::{Fit, Parameter, Term, Verdict, to_yaml, unit};
 use schuler_imu::Instrument;
 
-use super::axis::{Axis, Found};
+use super::axis::Axis;
 use super::figures;
+use super::notes::notes;
 use crate::Scenario;
 use crate::record::{Record, Table};
 
 pub fn record(scenario: &Scenario, axes: &[Axis]) -> Record {
     let mut record = Record::new(scenario, summary(axes));
-    for instrument in Instrument::ALL {
+    for instrument in Instrument::ALL.into_iter().filter(|i| axes.iter().any(|a| a.instrument == *i)) {
         record.tables.push(estimates(axes, instrument));
     }
     record.tables.push(parameters(axes));
@@ -78,7 +79,7 @@ fn summary(axes: &[Axis]) -> Table {
 }
 
 /// Four digits, with an exponent where they would be lost among zeros.
-struct Short(f64);
+pub struct Short(pub f64);
 
 impl std::fmt::Display for Short {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -158,81 +159,45 @@ fn estimates(axes: &[Axis], instrument: Instrument) -> Table {
     table
 }
 
-fn notes(axis: &Axis) -> Vec<String> {
-    let name = &axis.name;
-    let found = match &axis.found {
-        Ok(found) => found,
-        Err(error) => return vec![format!("{name}: {error}")],
-    };
-    let mut notes = Vec::new();
-    if found.streamed {
-        notes.push(format!("{name}: too long to keep; octaves only, other estimators and a fine search for a sinusoid are left out"));
-    }
-    match &found.fit {
-        Err(error) => notes.push(format!("{name}: no fit: {error}")),
-        Ok(fit) => notes.extend(of_fit(name, fit)),
-    }
-    notes.extend(of_sun(name, found));
-    notes
-}
-
-fn of_fit(name: &str, fit: &Fit) -> Vec<String> {
-    let mut notes = Vec::new();
-    if fit.misfit {
-        notes.push(format!(
-            "{name}: no sum of these terms is the curve within chance; the log holds something else (motion, temperature, an \
-             outlier). The fit allows for {:.0} % of error in the model's variance",
-            100.0 * fit.model_error
-        ));
-    }
-    if let Some(q) = fit.parameter(Term::Quantization).filter(|q| q.value > 0.0) {
-        let share = |tau: f64| q.value * q.value * q.term.allan_variance(tau) / fit.allan_variance(tau);
-        let until = (0..).map(|k| fit.tau0 * f64::from(k).exp2()).take_while(|t| share(*t) > 0.5).last();
-        if let Some(tau) = until {
-            notes.push(format!("{name}: quantization is more than half of the variance up to {tau:.4} s"));
-        }
-    }
-    let hidden = |v| -> Vec<&str> {
-        fit.parameters.iter().filter(|p| p.verdict == v).map(|p| p.term.name()).collect()
-    };
-    let unsure = hidden(Verdict::NotObservable);
-    if !unsure.is_empty() {
-        notes.push(format!("{name}: not observable from this log (bound above 30 %): {}", unsure.join(", ")));
-    }
-    notes
-}
-
-/// The paper's own method on the same points.
-fn of_sun(name: &str, found: &Found) -> Option<String> {
-    let sun = found.sun.as_ref()?;
-    let negative: Vec<&str> =
-        (0..5).filter(|k| sun.coefficients[*k] < 0.0).map(|k| Term::POWER_LAWS[k].name()).collect();
-    (!negative.is_empty()).then(|| {
-        format!(
-            "{name}: equation (3) of the paper (plain least squares) has negative squares: {}",
-            negative.join(", ")
-        )
-    })
-}
-
 /// Error sources of both instruments, as `imu` of a scenario has them.
 fn sources(axes: &[Axis]) -> String {
     let mut text = String::from("# Error sources found by `study: allan`; a list holds the axes x, y, z.\n");
     for instrument in Instrument::ALL {
-        let of: Vec<&Fit> =
-            fits(axes).filter(|(a, _)| a.instrument == instrument).map(|(_, fit)| fit).collect();
+        let there: Vec<&Axis> = axes.iter().filter(|a| a.instrument == instrument).collect();
+        let fit = |axis: &&Axis| axis.found.as_ref().ok().and_then(|found| found.fit.as_ref().ok()).cloned();
+        let mut fits: Vec<Option<Fit>> = there.iter().map(fit).collect();
         text.push_str(instrument.name());
-        // A triad needs its three axes.
-        if let [x, y, z] = of[..] {
-            text.push_str(":\n");
-            let list = to_yaml(&[x.clone(), y.clone(), z.clone()], instrument);
-            text.extend(list.lines().map(|line| format!("  {line}\n")));
-            if !list.lines().any(|l| l.starts_with('-')) {
-                text.push_str("  []\n");
-            }
+        if fits.iter().all(Option::is_none) {
+            let why = if there.is_empty() { "not in this log" } else { "no axis could be fitted" };
+            text += &format!(": []      # {why}\n");
+            continue;
+        }
+        text.push_str(":\n");
+        if fits.len() == 1 {
+            text += "  # One axis in this log: taken for all three.\n";
         } else {
-            text.push_str(": []      # not all three axes could be fitted\n");
+            fits.resize(3, None);
+            for (axis, _) in ["x", "y", "z"].iter().zip(&fits).filter(|(_, fit)| fit.is_none()) {
+                text += &format!("  # {axis}: not in this log, or without a fit; without errors here.\n");
+            }
+        }
+        let fits: Vec<Fit> = fits.into_iter().map(|fit| fit.unwrap_or(NOTHING)).collect();
+        let list = to_yaml(&fits, instrument);
+        text.extend(list.lines().map(|line| format!("  {line}\n")));
+        if !list.lines().any(|l| l.starts_with('-')) {
+            text.push_str("  []\n");
         }
     }
     text
 }
+
+/// Of an axis that is not known.
+const NOTHING: Fit = Fit {
+    parameters: Vec::new(),
+    chi2: 0.0,
+    freedom: 0,
+    misfit: false,
+    model_error: 0.0,
+    tau0: f64::INFINITY,
+    duration: 0.0,
+};

@@ -1,8 +1,14 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use schuler_allan::Term;
+use schuler_frames::Vec3;
 use schuler_imu::{Imu, Instrument::Accel, Instrument::Gyro, Source, Spec, Stream, Truth};
 
+use schuler_strapdown::Increments;
+
+use super::axis::{Channel, KEPT};
+use crate::log::{AxisMap, ColumnRef, Columns, Content, Scale};
 use crate::record::{Column, Record};
 use crate::{Context, Error, Scenario};
 
@@ -91,11 +97,59 @@ fn a_stuck_axis_is_named() {
     let note = record.notes.iter().find(|n| n.starts_with("gyro.z")).unwrap();
     assert!(note.contains("constant column"), "{note}");
     assert_eq!(record.figures.len(), 5);
-    assert!(record.texts[0].1.contains("gyro: []"));
+    let sources = &record.texts[0].1;
+    assert!(
+        sources.contains("gyro:\n  # z: not in this log, or without a fit; without errors here."),
+        "{sources}"
+    );
+    assert!(sources.contains(", 0 deg/sqrt(h)]"), "{sources}");
 }
 
 #[test]
 fn a_bad_row_is_refused() {
     let text = log(false).replacen("\n", "\nnan,0,0,0,0,0\n", 1);
     assert!(run("nan", &text).is_err());
+}
+
+/// A log too long to keep says the same as one that is kept: the same differences up to eight samples, a subset of them
+/// above, whose price in variance for white noise is 2 %: so the two estimates of a variance differ by
+/// sqrt(0.02 · 2/edf), a seventh of their standard error. The octave at 1/4 of the log is the last compared.
+#[test]
+fn a_log_too_long_to_keep_says_the_same() {
+    let spec = crate::log::LogSpec {
+        file: String::new(),
+        source: String::new(),
+        rate: 10.0,
+        content: Content::Increments,
+        columns: Columns { time: None, gyro: vec![ColumnRef::Number(1)], accel: Vec::new() },
+        scale: Scale { gyro: [1.0; 3], accel: [1.0; 3] },
+        axes: AxisMap::IDENTITY,
+        stationary: false,
+    };
+    let white = Source::named(Gyro, "bias", "white", &[("density", DEG_SQRT_H.into())]).unwrap();
+    let mut imu = Imu::new(&Spec::from_sources([white]).unwrap(), Stream { seed: 5, run: 0 }).unwrap();
+    let mut channels = [KEPT, 1000].map(|limit| Channel::all(&spec, limit).pop().unwrap());
+    for _ in 0..65_536 {
+        let sample = imu.step(0.1, &Truth::rates([0.0; 3], [0.0; 3]));
+        let increments = Increments { dtheta: Vec3::claim(sample.dtheta), dv: Vec3::ZERO };
+        channels.iter_mut().for_each(|channel| channel.push(&increments));
+    }
+    let found = channels.map(|channel| channel.finish().found.unwrap());
+    assert_eq!(found.each_ref().map(|f| f.streamed), [false, true]);
+    let [kept, streamed] = &found;
+    let mut compared = 0;
+    for sparse in streamed.curves[0].iter().filter(|e| 4 * e.point.m <= 65_536) {
+        let full = kept.curves[0].iter().find(|e| e.point.m == sparse.point.m).unwrap();
+        let ratio = sparse.point.variance / full.point.variance;
+        let sigma = if sparse.point.m <= 8 { 1e-11 } else { (0.02 * 2.0 / full.edf).sqrt() };
+        assert!((ratio - 1.0).abs() < 5.0 * sigma, "{}: {ratio}, {sigma}", sparse.point.m);
+        compared += 1;
+    }
+    assert_eq!(compared, 15);
+    let [a, b] = found.each_ref().map(|f| {
+        let fit = f.fit.as_ref().unwrap();
+        fit.parameter(Term::White).unwrap().clone()
+    });
+    assert!((a.value - b.value).abs() < a.standard_error, "{a:?}, {b:?}");
+    assert!((0.9..1.1).contains(&(b.standard_error / a.standard_error)), "{a:?}, {b:?}");
 }

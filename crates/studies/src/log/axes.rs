@@ -63,6 +63,11 @@ impl AxisMap {
         Ok(AxisMap(map))
     }
 
+    /// The sensor axis (0 to 2) that lies along body axis `body`, in this sense or the other.
+    pub fn sensor_axis(&self, body: usize) -> usize {
+        self.0[body].0
+    }
+
     /// A vector of sensor axes x, y, z along forward, right, down.
     #[inline]
     pub fn to_body(&self, sensor: [f64; 3]) -> Vec3<B> {

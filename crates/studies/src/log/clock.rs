@@ -57,7 +57,7 @@ impl Clock {
         } else {
             let mean = self.rows as f64 / (t - self.first);
             let found = format!("{} rows in {} s: {mean} Hz", self.rows, t - self.first);
-            return ClockFault { problem: "rows do not come at the rate that the scenario states", found };
+            return ClockFault { problem: "rows do not come at the rate stated", found };
         };
         ClockFault { problem, found }
     }

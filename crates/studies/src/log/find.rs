@@ -22,9 +22,9 @@ pub fn find(spec: &LogSpec, data: Option<&Path>, scenario: &Path) -> Result<Path
     let looked: Vec<String> = places.iter().map(|place| place.display().to_string()).collect();
     let mut help = String::new();
     if !spec.source.is_empty() {
-        help = format!("where it comes from: {}; ", spec.source.trim());
+        help = format!("where it comes from: {}; then ", spec.source.trim());
     }
-    help += "then give its folder with `--data DIR` or the environment variable SCHULER_DATA";
+    help += "give its folder with `--data DIR` or the environment variable SCHULER_DATA";
     Err(Diagnostic::new(scenario, format!("the log {} is not there", spec.file))
         .path("log.file")
         .found(format!("no such file: {}", looked.join(", ")))

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use schuler_imu::Instrument;
+
 use super::AxisMap;
 
 /// A recorded log and how to read it.
@@ -49,10 +51,20 @@ impl Content {
 pub struct Columns {
     /// Time of the row, where the log has it: it is checked for order and gaps.
     pub time: Option<TimeColumn>,
-    /// Gyros along sensor x, y, z.
-    pub gyro: [ColumnRef; 3],
-    /// Accelerometers along sensor x, y, z.
-    pub accel: [ColumnRef; 3],
+    /// Gyros along sensor x, y, z: three, or for `study: allan` also fewer, the first axes.
+    pub gyro: Vec<ColumnRef>,
+    /// Accelerometers along sensor x, y, z, in the same way.
+    pub accel: Vec<ColumnRef>,
+}
+
+impl Columns {
+    /// Those of an instrument.
+    pub fn of(&self, instrument: Instrument) -> &[ColumnRef] {
+        match instrument {
+            Instrument::Gyro => &self.gyro,
+            Instrument::Accel => &self.accel,
+        }
+    }
 }
 
 /// A time column and its unit.
@@ -89,4 +101,14 @@ pub struct Scale {
     pub gyro: [f64; 3],
     /// m/s (increments) or m/s² (rates).
     pub accel: [f64; 3],
+}
+
+impl Scale {
+    /// That of an instrument.
+    pub fn of(&self, instrument: Instrument) -> [f64; 3] {
+        match instrument {
+            Instrument::Gyro => self.gyro,
+            Instrument::Accel => self.accel,
+        }
+    }
 }

@@ -15,7 +15,7 @@ fn name(text: &str) -> ColumnRef {
 }
 
 /// Right-front-up axes, 100 Hz, unit scales.
-fn spec() -> LogSpec {
+pub(super) fn spec() -> LogSpec {
     LogSpec {
         file: "log.csv".into(),
         source: "the archive of the institute".into(),
@@ -23,8 +23,8 @@ fn spec() -> LogSpec {
         content: Content::Increments,
         columns: Columns {
             time: Some(TimeColumn { column: name("t"), scale: 1.0 }),
-            gyro: ["gx", "gy", "gz"].map(name),
-            accel: ["ax", "ay", "az"].map(name),
+            gyro: ["gx", "gy", "gz"].map(name).to_vec(),
+            accel: ["ax", "ay", "az"].map(name).to_vec(),
         },
         scale: Scale { gyro: [1.0; 3], accel: [1.0; 3] },
         axes: AxisMap::parse(["y", "x", "-z"]).unwrap(),
@@ -114,8 +114,8 @@ fn the_look_of_the_file_does_not_matter() {
 fn columns_by_number_need_no_header() {
     let mut spec = spec();
     spec.columns.time = None;
-    spec.columns.gyro = [2, 3, 4].map(ColumnRef::Number);
-    spec.columns.accel = [5, 6, 7].map(ColumnRef::Number);
+    spec.columns.gyro = [2, 3, 4].map(ColumnRef::Number).to_vec();
+    spec.columns.accel = [5, 6, 7].map(ColumnRef::Number).to_vec();
     let body = rows(4)[HEADER.len()..].to_string();
     let samples = read(&spec, &body).unwrap();
     assert_eq!(samples.len(), 4);
@@ -178,7 +178,7 @@ fn a_rate_that_the_time_column_contradicts_is_named() {
     let mut spec = spec();
     spec.rate = 99.0;
     let message = complaint(&spec, rows(1000));
-    assert!(message.contains("t: rows do not come at the rate that the scenario states"), "{message}");
+    assert!(message.contains("t: rows do not come at the rate stated"), "{message}");
     assert!(message.contains("100"), "{message}");
     // Time stamps rounded to a millisecond, and a clock that is 100 ppm fast, are no fault.
     spec.rate = 300.0;
@@ -256,8 +256,8 @@ fn the_mems_vehicle_log_is_read_whole() {
     spec.file = "psins/mems_vehicle_imu.csv.gz".into();
     spec.columns = Columns {
         time: Some(TimeColumn { column: name("t_s"), scale: 1.0 }),
-        gyro: ["dthx_rad", "dthy_rad", "dthz_rad"].map(name),
-        accel: ["dvx_mps", "dvy_mps", "dvz_mps"].map(name),
+        gyro: ["dthx_rad", "dthy_rad", "dthz_rad"].map(name).to_vec(),
+        accel: ["dvx_mps", "dvy_mps", "dvz_mps"].map(name).to_vec(),
     };
     let file = find(&spec, Some(Path::new(&data)), Path::new("a.yaml")).unwrap();
     let samples: Vec<LogSample> = LogReader::open(&spec, &file).unwrap().collect::<Result<_, _>>().unwrap();

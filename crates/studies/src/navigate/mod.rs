@@ -32,12 +32,10 @@ pub fn run(scenario: &Scenario, context: &Context) -> Result<Record, Error> {
     }
     let plan = plan(navigate, scenario.output.every);
     let file = find(&navigate.log, context.data.as_deref(), &scenario.file)?;
-    context.progress.begin("log", 1);
     let mut pass = Pass::new(&plan);
-    for sample in LogReader::open(&navigate.log, &file)? {
+    for sample in LogReader::open(&navigate.log, &file)?.watched(context.progress) {
         pass.sample(&sample?).map_err(|fault| no_attitude(navigate, &file, fault))?;
     }
-    context.progress.advance(1);
     let Some(outcome) = pass.finish() else {
         let (begin, end) = (navigate.align.window[0], navigate.align.window[1]);
         let rows = pass.whole.count;

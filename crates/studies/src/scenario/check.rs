@@ -33,7 +33,7 @@ impl Document {
             StudyKind::Drift => Study::Drift(self.drift(w)?),
             StudyKind::Navigate => Study::Navigate(self.navigate(w)?),
             StudyKind::Align => Study::Align(self.align_study(w)?),
-            StudyKind::Allan => Study::Allan(self.log(&self.required_log(w, "allan")?.value)?),
+            StudyKind::Allan => Study::Allan(self.log(self.required_log(w, "allan")?)?),
         };
         let rate = match &study {
             Study::Imu(s) => s.imu.rate,
@@ -141,7 +141,7 @@ impl Document {
         let duration =
             w.duration.as_ref().map(|d| self.quantity(d, Unit::SECOND, Range::Positive)).transpose()?;
         Ok(Navigate {
-            log: self.log(&log.value)?,
+            log: self.imu_log(log)?,
             start: self.required_start(w, "navigate")?,
             align: Align { window },
             mechanization: self.mechanization(w, "navigate")?,

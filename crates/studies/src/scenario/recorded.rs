@@ -6,13 +6,16 @@ use super::{
     de::At,
     document::{Document, Spot},
     quantity::Range,
-    schema::Title,
+    schema::{OneOrMore, Title},
     written,
 };
 use crate::{
     Diagnostic,
     log::{AxisMap, ColumnRef, Columns, Content, LogSpec, Scale, TimeColumn},
+    units,
 };
+
+const COLUMNS: &str = "columns: { gyro: [gx, gy, gz], accel: [ax, ay, az] }";
 
 pub(super) fn content(content: written::Content) -> Content {
     match content {
@@ -29,7 +32,28 @@ fn column(title: &Title) -> ColumnRef {
 }
 
 impl Document {
-    pub(super) fn log(&self, w: &written::Log) -> Result<LogSpec, Diagnostic> {
+    /// A log of six axes, as navigation needs it.
+    pub(super) fn imu_log(&self, w: &At<written::Log>) -> Result<LogSpec, Diagnostic> {
+        let log = self.log(w)?;
+        let columns = &w.value.columns;
+        for (name, list, found) in [
+            ("gyro", &columns.gyro, log.columns.gyro.len()),
+            ("accel", &columns.accel, log.columns.accel.len()),
+        ] {
+            if found != 3 {
+                let node = list.as_ref().map_or(w.node, |list| list.node);
+                return Err(self
+                    .diagnostic(Spot::Node(node), "navigation needs three gyros and three accelerometers")
+                    .found(format!("{found} columns under `{name}`"))
+                    .example(COLUMNS));
+            }
+        }
+        Ok(log)
+    }
+
+    /// A log with one axis or more.
+    pub(super) fn log(&self, w: &At<written::Log>) -> Result<LogSpec, Diagnostic> {
+        let (node, w) = (w.node, &w.value);
         let content = content(w.content);
         let per = match content {
             Content::Increments => Unit::SECOND,
@@ -38,23 +62,68 @@ impl Document {
         let time =
             w.scale.time.as_ref().map(|t| self.quantity(t, Unit::SECOND, Range::Positive)).transpose()?;
         let time_column = |title| TimeColumn { column: column(title), scale: time.unwrap_or(1.0) };
+        let (gyro, gyro_scale) = self.triad("gyro", &w.columns.gyro, &w.scale.gyro, Unit::RATE * per)?;
+        let (accel, accel_scale) =
+            self.triad("accel", &w.columns.accel, &w.scale.accel, Unit::FORCE * per)?;
+        if gyro.is_empty() && accel.is_empty() {
+            return Err(self
+                .diagnostic(Spot::Node(node), "a log without gyros and without accelerometers")
+                .expected("columns of one of them at least")
+                .example(COLUMNS));
+        }
+        if let Some(axes) = &w.axes
+            && [&gyro, &accel].iter().any(|triad| matches!(triad.len(), 1 | 2))
+        {
+            return Err(self
+                .diagnostic(Spot::Node(axes.node), "axes cannot be turned where one is missing")
+                .expected("three columns of each instrument that is there, or no `axes`"));
+        }
         Ok(LogSpec {
             file: w.file.value.clone(),
             source: w.source.clone().unwrap_or_default(),
             rate: self.quantity(&w.rate, Unit::HERTZ, Range::Positive)?,
             content,
-            columns: Columns {
-                time: w.columns.time.as_ref().map(time_column),
-                gyro: w.columns.gyro.each_ref().map(column),
-                accel: w.columns.accel.each_ref().map(column),
-            },
-            scale: Scale {
-                gyro: self.each_axis(&w.scale.gyro, Unit::RATE * per, Range::Any)?,
-                accel: self.each_axis(&w.scale.accel, Unit::FORCE * per, Range::Any)?,
-            },
+            columns: Columns { time: w.columns.time.as_ref().map(time_column), gyro, accel },
+            scale: Scale { gyro: gyro_scale, accel: accel_scale },
             axes: w.axes.as_ref().map_or(Ok(AxisMap::IDENTITY), |axes| self.axes(axes))?,
             stationary: w.stationary.unwrap_or(false),
         })
+    }
+
+    /// Columns and counts of an instrument: both or neither.
+    fn triad(
+        &self,
+        name: &str,
+        columns: &Option<At<Vec<Title>>>,
+        scale: &Option<At<OneOrMore>>,
+        unit: Unit,
+    ) -> Result<(Vec<ColumnRef>, [f64; 3]), Diagnostic> {
+        match (columns, scale) {
+            (Some(columns), Some(scale)) => {
+                if !matches!(columns.value.len(), 1..=3) {
+                    return Err(self
+                        .diagnostic(
+                            Spot::Node(columns.node),
+                            format!("the list has {} entries", columns.value.len()),
+                        )
+                        .expected("the columns of x, y, z, or of the first of these axes")
+                        .example(COLUMNS));
+                }
+                let scale = self.each_axis(scale, unit, Range::Any)?;
+                Ok((columns.value.iter().map(column).collect(), scale))
+            }
+            (None, None) => Ok((Vec::new(), [1.0; 3])),
+            (Some(there), None) => Err(self
+                .diagnostic(Spot::Node(there.node), format!("the key `{name}` is missing"))
+                .path("log.scale")
+                .expected("what one count of these columns is")
+                .example(units::example(unit))),
+            (None, Some(there)) => Err(self
+                .diagnostic(Spot::Node(there.node), format!("the key `{name}` is missing"))
+                .path("log.columns")
+                .expected("the columns that this count is of")
+                .example(COLUMNS)),
+        }
     }
 
     fn axes(&self, axes: &At<[At<String>; 3]>) -> Result<AxisMap, Diagnostic> {

@@ -357,7 +357,7 @@ pub enum Gravity {
     Somigliana,
 }
 
-/// A recorded IMU log, CSV or CSV.gz.
+/// A recorded IMU log: CSV or a NumPy array (npy), either also gzipped.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Log {
@@ -395,10 +395,12 @@ pub enum Content {
 pub struct Columns {
     /// Time, where the log has it; it is checked for gaps and order.
     pub time: Option<Title>,
-    /// Gyro x, y, z.
-    pub gyro: [Title; 3],
-    /// Accelerometer x, y, z.
-    pub accel: [Title; 3],
+    /// Gyro x, y, z; `study: allan` also takes fewer axes, or none.
+    #[schemars(length(min = 1, max = 3))]
+    pub gyro: Option<At<Vec<Title>>>,
+    /// Accelerometer x, y, z; `study: allan` also takes fewer axes, or none.
+    #[schemars(length(min = 1, max = 3))]
+    pub accel: Option<At<Vec<Title>>>,
 }
 
 /// What one count of a column is.
@@ -406,9 +408,9 @@ pub struct Columns {
 #[serde(deny_unknown_fields)]
 pub struct Scales {
     /// Angle (increments) or angular rate (rates) of one count.
-    pub gyro: At<OneOrThree>,
+    pub gyro: Option<At<OneOrThree>>,
     /// Velocity (increments) or specific force (rates) of one count.
-    pub accel: At<OneOrThree>,
+    pub accel: Option<At<OneOrThree>>,
     /// Time of one count of the time column; `1 s` when absent.
     pub time: Option<Quantity>,
 }

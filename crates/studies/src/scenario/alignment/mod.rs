@@ -92,7 +92,7 @@ impl Document {
                     .help("take one of them out"));
             }
         }
-        let log = self.log(&log.value)?;
+        let log = self.imu_log(log)?;
         let window = alignment.window.as_ref().ok_or_else(|| {
             self.diagnostic(Spot::Node(self.root()), "the key `window` is missing")
                 .expected("the length of the windows of the log that are aligned")
