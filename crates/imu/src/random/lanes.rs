@@ -56,36 +56,45 @@ pub fn best_level() -> Level {
     Level::try_detect().unwrap_or(Level::baseline())
 }
 
-/// Four standard normals for each address: `out[q][i]` belongs to `addresses[i]`.
+/// Steps whose normals are made together.
+pub const STEPS: usize = 8;
+
+/// The standard normals of steps `8 octet` to `8 octet + 7` for each address: `out[i][k]` is that of step
+/// `8 octet + k` for `addresses[i]`.
 ///
 /// The words of address `a` are those of Philox4x32-10 with counter `(block, a)`, low words first, and
-/// key `key`; two of them make a pair of normals, the first the radius and the second the angle. The
-/// radius has 32 random bits, so that no normal is beyond 6.76. `addresses` and each of `out` must be
-/// of the same length, a multiple of 8; a rest is left alone.
-pub fn fill_normals(level: Level, key: [u32; 2], block: u64, addresses: &[u64], out: [&mut [f64]; 4]) {
-    dispatch!(level, simd => fill(simd, key, block, addresses, out));
+/// key `key`; two of them make a pair of normals, the first the radius and the second the angle, so that
+/// one block serves four steps. The radius has 32 random bits, so that no normal is beyond 6.76. The
+/// number of addresses must be a multiple of 4 and not above that of `out`; a rest is left alone.
+pub fn fill_normals(level: Level, key: [u32; 2], octet: u64, addresses: &[u64], out: &mut [[f64; STEPS]]) {
+    dispatch!(level, simd => fill(simd, key, octet, addresses, out));
 }
 
+/// First the words of all addresses, then their normals in the same place: each loop alone keeps the
+/// processor busier than both in one. In neighbouring lanes stand the two blocks of an address.
 #[inline(always)]
-fn fill<S: Simd>(simd: S, key: [u32; 2], block: u64, addresses: &[u64], out: [&mut [f64]; 4]) {
+fn fill<S: Simd>(simd: S, key: [u32; 2], octet: u64, addresses: &[u64], out: &mut [[f64; STEPS]]) {
     let n = S::f64s::LEN;
-    let [out0, out1, out2, out3] = out.map(|o| o.chunks_exact_mut(n));
-    let chunks = addresses.chunks_exact(n).zip(out0).zip(out1).zip(out2).zip(out3);
-    for ((((address, out0), out1), out2), out3) in chunks {
-        let address = S::u64s::from_slice(simd, address);
-        let counter = [
-            S::u64s::splat(simd, block & WORD),
-            S::u64s::splat(simd, block >> 32),
-            address & WORD,
-            address >> 32,
-        ];
-        let [radius0, angle0, radius1, angle1] = philox(simd, counter, key);
-        let [n0, n1] = pair(simd, radius0, angle0);
-        let [n2, n3] = pair(simd, radius1, angle1);
-        n0.store_slice(out0);
-        n1.store_slice(out1);
-        n2.store_slice(out2);
-        n3.store_slice(out3);
+    let block = S::u64s::from_fn(simd, |i| 2 * octet + (i as u64 & 1));
+    let (low, high) = (block & WORD, block >> 32);
+    let out = &mut out[..addresses.len()];
+    for (addresses, out) in addresses.chunks_exact(n / 2).zip(out.chunks_exact_mut(n / 2)) {
+        let address = S::u64s::from_fn(simd, |i| addresses[i / 2]);
+        let words = philox(simd, [low, high, address & WORD, address >> 32], key);
+        for (word, out) in words.iter().zip(out.as_flattened_mut().chunks_exact_mut(n)) {
+            word.bitcast::<S::f64s>().store_slice(out);
+        }
+    }
+    for out in out.chunks_exact_mut(n / 2) {
+        let out = out.as_flattened_mut();
+        let word = |i: usize| S::f64s::from_slice(simd, &out[i * n..(i + 1) * n]).bitcast::<S::u64s>();
+        let [n0, n1] = pair(simd, word(0), word(1));
+        let [n2, n3] = pair(simd, word(2), word(3));
+        let (even, odd) = ([n0.zip_low(n2), n0.zip_high(n2)], [n1.zip_low(n3), n1.zip_high(n3)]);
+        for (half, out) in out.chunks_exact_mut(2 * n).enumerate() {
+            even[half].zip_low(odd[half]).store_slice(&mut out[..n]);
+            even[half].zip_high(odd[half]).store_slice(&mut out[n..]);
+        }
     }
 }
 
