@@ -311,7 +311,7 @@ impl Bank {
         self.second.forward(simd, rest, &mut state.second, rows);
         sums.begin();
         for (i, (scale, w)) in self.white[..self.whites].iter().zip(&rest[self.seconds..]).enumerate() {
-            add(simd, sums.of(Shape::White, i), *scale, [(1.0, w)]);
+            add(simd, sums.of(Shape::White, i), [(*scale, w)]);
         }
         let mut i = 0;
         while i < first.len() {

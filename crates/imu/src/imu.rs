@@ -2,7 +2,7 @@
 
 use crate::bank::{Bank, row_of};
 use crate::error::Error;
-use crate::random::STEPS;
+use crate::random::{Level, STEPS};
 use crate::readout::{Chain, Status};
 use crate::sample::Sample;
 use crate::state::State;
@@ -24,6 +24,8 @@ pub struct Imu {
     sums: Sums,
     /// What happened in the last steps, each in its row.
     inputs: Inputs,
+    /// The sources' errors per instrument and axis.
+    errors: [[[f64; STEPS]; 3]; 2],
     chains: Option<[Chain; 2]>,
     /// Readout's part of the error of the last sample.
     readout_errors: [[f64; 3]; 2],
@@ -49,6 +51,7 @@ impl Imu {
             bank,
             state,
             inputs: Inputs::NONE,
+            errors: [[[0.0; STEPS]; 3]; 2],
             chains: spec.readout.map(|r| [Chain::new(r.gyro), Chain::new(r.accel)]),
             readout_errors: [[0.0; 3]; 2],
             dt: 0.0,
@@ -61,6 +64,13 @@ impl Imu {
         self.state = State::start(&self.spec, self.bank.start(&self.spec, stream.key()));
         self.sums = Sums::new(&self.spec, &self.bank);
         self.last = None;
+    }
+
+    /// Calculates in the lanes of `level` in place of the widest that the machine has; no bit of a sample
+    /// depends on it.
+    pub fn set_level(&mut self, level: Level) {
+        self.bank.level = level;
+        self.sums.level = level;
     }
 
     /// The next sample, over an interval of `dt` seconds in which `truth` happened.
@@ -122,11 +132,14 @@ impl Imu {
     /// The next sample, written in place: copies of it would cost as much as its random numbers.
     #[inline]
     fn step_into(&mut self, truth: &Truth, sample: &mut Sample) {
-        self.inputs.set(self.row(), truth, self.dt, self.spec.calibration_temperature);
-        let (step, row) = self.begin(1);
-        sample.omega_error = self.sums.error(Instrument::Gyro, row, &self.inputs);
-        sample.f_error = self.sums.error(Instrument::Accel, row, &self.inputs);
-        self.finish(step, truth, sample);
+        let row = self.row();
+        self.inputs.set(row, truth, self.dt, self.spec.calibration_temperature);
+        let step = self.begin(1);
+        for (instrument, errors) in Instrument::ALL.into_iter().zip(&mut self.errors) {
+            let [x, y, z] = self.sums.error(instrument, row, &self.inputs);
+            (errors[0][row], errors[1][row], errors[2][row]) = (x, y, z);
+        }
+        self.finish(step, row, truth, sample);
     }
 
     /// The next [`STEPS`] samples, from row 0 on.
@@ -136,15 +149,12 @@ impl Imu {
         for (row, truth) in truths.iter().enumerate() {
             self.inputs.set(row, truth, self.dt, self.spec.calibration_temperature);
         }
-        let (step, _) = self.begin(STEPS);
-        let omega_errors = self.sums.errors(Instrument::Gyro, &self.inputs);
-        let f_errors = self.sums.errors(Instrument::Accel, &self.inputs);
-        for (i, (truth, sample)) in truths.iter().zip(samples).enumerate() {
-            for axis in 0..3 {
-                sample.omega_error[axis] = omega_errors[axis][i];
-                sample.f_error[axis] = f_errors[axis][i];
-            }
-            self.finish(step + i as u64, truth, sample);
+        let step = self.begin(STEPS);
+        for (instrument, errors) in Instrument::ALL.into_iter().zip(&mut self.errors) {
+            self.sums.errors(instrument, &self.inputs, errors);
+        }
+        for (row, (truth, sample)) in truths.iter().zip(samples).enumerate() {
+            self.finish(step + row as u64, row, truth, sample);
         }
     }
 
@@ -153,37 +163,42 @@ impl Imu {
         row_of(self.state.step())
     }
 
-    /// Takes the next `n` steps: number and row of the first.
+    /// Takes the next `n` steps: number of the first.
     #[inline]
-    fn begin(&mut self, n: usize) -> (u64, usize) {
+    fn begin(&mut self, n: usize) -> u64 {
         let step = self.state.step();
         if !self.bank.has(step) {
             self.bank.prepare(&mut self.state.bank, &mut self.sums);
         }
         self.state.bank.step += n as u64;
         self.last = Some(self.state.step() - 1);
-        (step, row_of(step))
+        step
     }
 
-    /// Completes the sample of step `step`, in which the sources' errors stand already.
+    /// The sample of step `step` in `row`, number by number: pairs read where single numbers were just written
+    /// would have to wait for them.
     #[inline(always)]
-    fn finish(&mut self, step: u64, truth: &Truth, sample: &mut Sample) {
+    fn finish(&mut self, step: u64, row: usize, truth: &Truth, sample: &mut Sample) {
         let dt = self.dt;
         sample.dt = dt;
         if self.chains.is_some() {
-            return self.read_out(step, sample);
+            return self.read_out(step, row, sample);
+        }
+        let [omega_errors, f_errors] = &self.errors;
+        for i in 0..3 {
+            (sample.omega_error[i], sample.f_error[i]) = (omega_errors[i][row], f_errors[i][row]);
         }
         match &truth.motion {
             Motion::Rates { omega, f } => {
                 for i in 0..3 {
-                    sample.dtheta[i] = (omega[i] + sample.omega_error[i]) * dt;
-                    sample.dv[i] = (f[i] + sample.f_error[i]) * dt;
+                    sample.dtheta[i] = (omega[i] + omega_errors[i][row]) * dt;
+                    sample.dv[i] = (f[i] + f_errors[i][row]) * dt;
                 }
             }
             Motion::Increments { dtheta, dv } => {
                 for i in 0..3 {
-                    sample.dtheta[i] = dtheta[i] + sample.omega_error[i] * dt;
-                    sample.dv[i] = dv[i] + sample.f_error[i] * dt;
+                    sample.dtheta[i] = dtheta[i] + omega_errors[i][row] * dt;
+                    sample.dv[i] = dv[i] + f_errors[i][row] * dt;
                 }
             }
         }
@@ -191,21 +206,21 @@ impl Imu {
     }
 
     /// What the readout makes of the input and the sources' errors of step `step`.
-    fn read_out(&mut self, step: u64, sample: &mut Sample) {
-        let dt = self.dt;
+    fn read_out(&mut self, step: u64, row: usize, sample: &mut Sample) {
+        let (dt, rate) = (self.dt, 1.0 / self.dt);
         for (which, chain) in self.chains.iter().flatten().enumerate() {
             let instrument = Instrument::ALL[which];
-            let (error, increment, status) = match instrument {
+            let (total, increment, status) = match instrument {
                 Instrument::Gyro => (&mut sample.omega_error, &mut sample.dtheta, &mut sample.gyro),
                 Instrument::Accel => (&mut sample.f_error, &mut sample.dv, &mut sample.accel),
             };
-            let (u, e) = (self.inputs.seen_by(instrument).at(row_of(step)).u, *error);
+            let (u, e) = (self.inputs.seen_by(instrument).u(row), &self.errors[which]);
+            let input = [u[0] + e[0][row], u[1] + e[1][row], u[2] + e[2][row]];
             let normals = self.bank.readout_normals(step, instrument);
-            let state = &mut self.state.readout[which];
-            (*increment, *status) = chain.step(state, dt, [0, 1, 2].map(|i| u[i] + e[i]), normals);
+            *status = chain.step(&mut self.state.readout[which], dt, input, normals, increment);
             for i in 0..3 {
-                error[i] = increment[i] / dt - u[i];
-                self.readout_errors[which][i] = error[i] - e[i];
+                total[i] = increment[i] * rate - u[i];
+                self.readout_errors[which][i] = total[i] - e[i][row];
             }
         }
     }

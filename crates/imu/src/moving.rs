@@ -16,9 +16,10 @@ use crate::random::STEPS;
 pub(crate) struct First {
     pub count: usize,
     phi: [f64; MAX_FIRST],
+    /// Mean and noise of its step, and the factor on the coefficient.
+    step: [(f64, [f64; 3], f64); MAX_FIRST],
+    /// With that factor.
     mean: [f64; MAX_FIRST],
-    noise: [[f64; 3]; MAX_FIRST],
-    gain: [f64; MAX_FIRST],
     s: [f64; MAX_FIRST],
     k: [f64; MAX_FIRST],
     /// The state before each step.
@@ -31,6 +32,8 @@ pub(crate) struct Second {
     pub count: usize,
     step: [Step; MAX_SECOND],
     gain: [f64; MAX_SECOND],
+    /// With the factor `gain` on the coefficient.
+    mean: [[f64; 2]; MAX_SECOND],
     s: [f64; MAX_SECOND],
     k: [[f64; MAX_SECOND]; 2],
     phi: [[[f64; MAX_SECOND]; 2]; 2],
@@ -42,8 +45,7 @@ impl First {
         count: 0,
         phi: [0.0; MAX_FIRST],
         mean: [0.0; MAX_FIRST],
-        noise: [[0.0; 3]; MAX_FIRST],
-        gain: [0.0; MAX_FIRST],
+        step: [(0.0, [0.0; 3], 0.0); MAX_FIRST],
         s: [0.0; MAX_FIRST],
         k: [0.0; MAX_FIRST],
         before: [[0.0; STEPS]; MAX_FIRST],
@@ -51,16 +53,17 @@ impl First {
 
     /// Part `i` follows `step` and counts `gain` times.
     pub fn set(&mut self, i: usize, step: &Step, gain: f64) {
-        (self.phi[i], self.mean[i], self.gain[i]) = (step.phi[0][0], step.mean[0], gain);
-        self.noise[i] = [step.noise[0][0], step.noise[2][0], step.noise[2][2]];
+        let ([n11, ..], [n31, _, n33]) = (step.noise[0], step.noise[2]);
+        self.step[i] = (step.mean[0], [n11, n31, n33], gain);
+        (self.phi[i], self.mean[i]) = (step.phi[0][0], gain * step.mean[0]);
     }
 
     /// Innovations of the next step from the covariances before it, which move on where `moves` says so.
     pub fn innovate(&mut self, covariances: &mut [f64; MAX_FIRST], moves: bool) {
         for (i, p) in covariances[..self.count].iter_mut().enumerate() {
-            let step = Step::first_order(self.phi[i], self.mean[i], self.noise[i]);
-            let now = step.innovation(&[*p, 0.0, 0.0]);
-            (self.s[i], self.k[i]) = (now.s, now.k[0]);
+            let (mean, noise, gain) = self.step[i];
+            let now = Step::first_order(self.phi[i], mean, noise).innovation(&[*p, 0.0, 0.0]);
+            (self.s[i], self.k[i]) = (gain * now.s, now.k[0]);
             if moves {
                 *p = now.covariance[0];
             }
@@ -74,7 +77,7 @@ impl First {
 
     /// Interval mean of part `i` in `row`, with the normal `w`.
     pub fn mean(&self, i: usize, row: usize, w: f64) -> f64 {
-        self.gain[i] * (self.mean[i] * self.before[i][row] + self.s[i] * w)
+        self.mean[i] * self.before[i][row] + self.s[i] * w
     }
 
     /// Takes the states `x` through `rows`.
@@ -121,7 +124,7 @@ impl First {
             for i in parts.clone() {
                 let [x, w] =
                     [&self.before[i], &normals[i]].map(|x| S::f64s::from_slice(simd, &x[at..at + n]));
-                sum += (x * self.mean[i] + w * self.s[i]) * self.gain[i];
+                sum += x * self.mean[i] + w * self.s[i];
             }
             sum.store_slice(&mut c[at..at + n]);
         }
@@ -133,6 +136,7 @@ impl Second {
         count: 0,
         step: [Step::NONE; MAX_SECOND],
         gain: [0.0; MAX_SECOND],
+        mean: [[0.0; 2]; MAX_SECOND],
         s: [0.0; MAX_SECOND],
         k: [[0.0; MAX_SECOND]; 2],
         phi: [[[0.0; MAX_SECOND]; 2]; 2],
@@ -142,6 +146,7 @@ impl Second {
     /// As [`First::set`].
     pub fn set(&mut self, i: usize, step: &Step, gain: f64) {
         (self.step[i], self.gain[i]) = (*step, gain);
+        self.mean[i] = [gain * step.mean[0], gain * step.mean[1]];
         for r in 0..2 {
             (0..2).for_each(|c| self.phi[r][c][i] = step.phi[r][c]);
         }
@@ -151,7 +156,7 @@ impl Second {
     pub fn innovate(&mut self, noisy: usize, covariances: &mut [[f64; 3]; MAX_SECOND], moves: bool) {
         for (i, p) in covariances[..noisy].iter_mut().enumerate() {
             let now = self.step[i].innovation(p);
-            (self.s[i], self.k[0][i], self.k[1][i]) = (now.s, now.k[0], now.k[1]);
+            (self.s[i], self.k[0][i], self.k[1][i]) = (self.gain[i] * now.s, now.k[0], now.k[1]);
             if moves {
                 *p = now.covariance;
             }
@@ -165,8 +170,8 @@ impl Second {
 
     /// As [`First::mean`].
     pub fn mean(&self, i: usize, row: usize, w: f64) -> f64 {
-        let ([x1, x2], [mean1, mean2]) = (self.before(i, row), self.step[i].mean);
-        self.gain[i] * (mean1 * x1 + mean2 * x2 + self.s[i] * w)
+        let ([x1, x2], [mean1, mean2]) = (self.before(i, row), self.mean[i]);
+        mean1 * x1 + mean2 * x2 + self.s[i] * w
     }
 
     /// As [`First::forward`]. What stands in `normals` for parts without noise does not matter.
@@ -216,18 +221,17 @@ impl Second {
     /// As [`First::add`].
     #[inline(always)]
     pub fn add<S: Simd>(&self, simd: S, i: usize, w: &[f64; STEPS], c: &mut [f64; STEPS]) {
-        let [mean1, mean2] = self.step[i].mean;
+        let [mean1, mean2] = self.mean[i];
         let [before1, before2] = &self.before;
-        add(simd, c, self.gain[i], [(mean1, &before1[i]), (mean2, &before2[i]), (self.s[i], w)]);
+        add(simd, c, [(mean1, &before1[i]), (mean2, &before2[i]), (self.s[i], w)]);
     }
 }
 
-/// Adds `gain` times the sum of products to `c`.
+/// Adds the sum of products to `c`.
 #[inline(always)]
 pub(crate) fn add<S: Simd, const N: usize>(
     simd: S,
     c: &mut [f64; STEPS],
-    gain: f64,
     products: [(f64, &[f64; STEPS]); N],
 ) {
     let n = S::f64s::LEN;
@@ -236,7 +240,7 @@ pub(crate) fn add<S: Simd, const N: usize>(
         for (factor, x) in &products[1..] {
             sum += S::f64s::from_slice(simd, &x[at..at + n]) * *factor;
         }
-        (S::f64s::from_slice(simd, &c[at..at + n]) + sum * gain).store_slice(&mut c[at..at + n]);
+        (S::f64s::from_slice(simd, &c[at..at + n]) + sum).store_slice(&mut c[at..at + n]);
     }
 }
 

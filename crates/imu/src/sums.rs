@@ -15,7 +15,7 @@ const MAX_GROUPS: usize = 2 * TERMS.len();
 /// Interval means of the coefficients of each term, for each of eight steps.
 #[derive(Clone, Debug)]
 pub(crate) struct Sums {
-    level: Level,
+    pub level: Level,
     /// Those of the gyroscopes, then those of the accelerometers.
     groups: [Option<Group>; MAX_GROUPS],
     ranges: [Range<usize>; 2],
@@ -151,12 +151,11 @@ impl Sums {
 
     /// The same of all rows.
     #[inline]
-    pub fn errors(&self, instrument: Instrument, inputs: &Inputs) -> [[f64; STEPS]; 3] {
+    pub fn errors(&self, instrument: Instrument, inputs: &Inputs, errors: &mut [[f64; STEPS]; 3]) {
         let range = self.ranges[instrument as usize].clone();
-        let mut errors = [[0.0; STEPS]; 3];
+        *errors = [[0.0; STEPS]; 3];
         for (sums, group) in self.sums[range.clone()].iter().zip(self.groups[range].iter().flatten()) {
-            group.term.add_outputs(self.level, &inputs.seen_by(instrument), sums, &mut errors);
+            group.term.add_outputs(self.level, &inputs.seen_by(instrument), sums, errors);
         }
-        errors
     }
 }

@@ -182,6 +182,12 @@ impl Inputs {
 }
 
 impl Seen<'_> {
+    /// The instrument's own input in row `row`.
+    #[inline(always)]
+    pub(crate) fn u(&self, row: usize) -> [f64; 3] {
+        [self.u[0][row], self.u[1][row], self.u[2][row]]
+    }
+
     /// The input of row `row`.
     #[inline(always)]
     pub fn at(&self, row: usize) -> Input {

@@ -19,7 +19,8 @@ fn known_answers() {
     }
 }
 
-/// The lanes against the scalar generator and the platform's logarithm, sine and cosine.
+/// The lanes against the scalar generator and the platform's logarithm, sine and cosine: the stated errors of
+/// the polynomials, 3e-11 at most, of numbers up to 6.76.
 #[test]
 fn normals_are_those_of_box_and_muller() {
     let key = [0x1234_5678, 0x9abc_def0];
@@ -38,7 +39,7 @@ fn normals_are_those_of_box_and_muller() {
                 for (found, expected) in
                     [(normals[i][at + 2 * q], r * cos), (normals[i][at + 2 * q + 1], r * sin)]
                 {
-                    assert!((found - expected).abs() < 2e-12, "{found} {expected}");
+                    assert!((found - expected).abs() < 1.5e-10, "{found} {expected}");
                 }
             }
         }
@@ -51,20 +52,26 @@ fn fill(level: Level, key: [u32; 2], octet: u64, addresses: &[u64]) -> Vec<[f64;
     out
 }
 
-/// Every width of lanes gives the same bits.
-#[test]
-fn all_lanes_agree_bit_for_bit() {
-    let addresses: Vec<u64> = (0..1024_u64).map(|i| i.wrapping_mul(0xdead_beef_cafe_f00d)).collect();
+/// Every level that this machine has.
+pub fn levels() -> Vec<Level> {
     let best = best_level();
-    let mut levels = vec![Level::baseline()];
+    let mut levels = vec![Level::baseline(), best];
     #[cfg(target_arch = "x86_64")]
     {
         levels.extend(best.as_sse2().map(Level::Sse2));
         levels.extend(best.as_sse4_2().map(Level::Sse4_2));
         levels.extend(best.as_avx2().map(Level::Avx2));
     }
+    levels
+}
+
+/// Every width of lanes gives the same bits.
+#[test]
+fn all_lanes_agree_bit_for_bit() {
+    let addresses: Vec<u64> = (0..1024_u64).map(|i| i.wrapping_mul(0xdead_beef_cafe_f00d)).collect();
+    let best = best_level();
     let expected = fill(best, [3, 4], 77, &addresses);
-    for level in levels {
+    for level in levels() {
         assert!(fill(level, [3, 4], 77, &addresses) == expected, "{level:?}");
     }
 }

@@ -157,7 +157,11 @@ fn add_axis<S: Simd, T: Term + ?Sized, const AXIS: usize>(
 ) {
     let mut errors = [0.0; STEPS];
     for i in 0..STEPS {
-        errors[i] = term.output(&inputs.at(i), &c.map(|c| c[i]))[AXIS];
+        let mut own = Coefficients::default();
+        for (own, c) in own.iter_mut().zip(c) {
+            *own = c[i];
+        }
+        errors[i] = term.output(&inputs.at(i), &own)[AXIS];
     }
     for i in 0..STEPS {
         sum[i] += errors[i];
