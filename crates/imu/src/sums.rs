@@ -143,8 +143,7 @@ impl Sums {
             for (c, sum) in c.iter_mut().zip(sums) {
                 *c = sum[row];
             }
-            let e = group.term.output(&input, &c);
-            (0..3).for_each(|i| error[i] += e[i]);
+            group.term.add_output(&input, &c, &mut error);
         }
         error
     }

@@ -106,6 +106,13 @@ pub trait Term: Sync {
     /// Output error per axis (rad/s or m/s²) of coefficients `c` under `input`; linear in `c`.
     fn output(&self, input: &Input, c: &Coefficients) -> [f64; 3];
 
+    /// Adds the output error to `sum`, which is kept where it is: a result that travels through memory in
+    /// pieces of different widths costs more than the term itself.
+    fn add_output(&self, input: &Input, c: &Coefficients, sum: &mut [f64; 3]) {
+        let [x, y, z] = self.output(input, c);
+        (sum[0], sum[1], sum[2]) = (sum[0] + x, sum[1] + y, sum[2] + z);
+    }
+
     /// Adds the output errors of several steps, each with its own coefficients (of each in turn, its values
     /// in the steps), to those per axis in `sums`: one call for all of them, in lanes.
     fn add_outputs(
