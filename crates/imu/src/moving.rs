@@ -100,8 +100,7 @@ impl First {
         }
         let n = S::f64s::LEN;
         for at in (0..self.count).step_by(n) {
-            let [phi, k] = [&self.phi, &self.k].map(|all| S::f64s::from_slice(simd, &all[at..at + n]));
-            let mut now = S::f64s::from_slice(simd, &x[at..at + n]);
+            let (phi, k, mut now) = (load(simd, &self.phi, at), load(simd, &self.k, at), load(simd, x, at));
             for from in (0..STEPS).step_by(n) {
                 let w = columns(simd, &normals[at..at + n], from);
                 let mut before = w;
@@ -120,10 +119,9 @@ impl First {
     pub fn add<S: Simd>(&self, simd: S, parts: Range<usize>, normals: &[[f64; STEPS]], c: &mut [f64; STEPS]) {
         let n = S::f64s::LEN;
         for at in (0..STEPS).step_by(n) {
-            let mut sum = S::f64s::from_slice(simd, &c[at..at + n]);
+            let mut sum = load(simd, c, at);
             for i in parts.clone() {
-                let [x, w] =
-                    [&self.before[i], &normals[i]].map(|x| S::f64s::from_slice(simd, &x[at..at + n]));
+                let (x, w) = (load(simd, &self.before[i], at), load(simd, &normals[i], at));
                 sum += x * self.mean[i] + w * self.s[i];
             }
             sum.store_slice(&mut c[at..at + n]);
@@ -199,9 +197,10 @@ impl Second {
         }
         let n = S::f64s::LEN;
         for at in (0..self.count).step_by(n) {
-            let [p11, p12, p21, p22, k1, k2] =
-                [p11, p12, p21, p22, k1, k2].map(|all| S::f64s::from_slice(simd, &all[at..at + n]));
-            let [mut now1, mut now2] = [&*x1, &*x2].map(|all| S::f64s::from_slice(simd, &all[at..at + n]));
+            let (p11, p12) = (load(simd, p11, at), load(simd, p12, at));
+            let (p21, p22) = (load(simd, p21, at), load(simd, p22, at));
+            let (k1, k2) = (load(simd, k1, at), load(simd, k2, at));
+            let (mut now1, mut now2) = (load(simd, x1, at), load(simd, x2, at));
             for from in (0..STEPS).step_by(n) {
                 let w = columns(simd, &normals[at..at + n], from);
                 let (mut first, mut second) = (w, w);
@@ -227,6 +226,12 @@ impl Second {
     }
 }
 
+/// Numbers from `at` on, as many as there are lanes.
+#[inline(always)]
+fn load<S: Simd>(simd: S, all: &[f64], at: usize) -> S::f64s {
+    S::f64s::from_slice(simd, &all[at..at + S::f64s::LEN])
+}
+
 /// Adds the sum of products to `c`.
 #[inline(always)]
 pub(crate) fn add<S: Simd, const N: usize>(
@@ -236,11 +241,11 @@ pub(crate) fn add<S: Simd, const N: usize>(
 ) {
     let n = S::f64s::LEN;
     for at in (0..STEPS).step_by(n) {
-        let mut sum = S::f64s::from_slice(simd, &products[0].1[at..at + n]) * products[0].0;
+        let mut sum = load(simd, products[0].1, at) * products[0].0;
         for (factor, x) in &products[1..] {
-            sum += S::f64s::from_slice(simd, &x[at..at + n]) * *factor;
+            sum += load(simd, *x, at) * *factor;
         }
-        (S::f64s::from_slice(simd, &c[at..at + n]) + sum).store_slice(&mut c[at..at + n]);
+        (load(simd, c, at) + sum).store_slice(&mut c[at..at + n]);
     }
 }
 
@@ -250,7 +255,7 @@ fn columns<S: Simd>(simd: S, rows: &[[f64; STEPS]], from: usize) -> [S::f64s; ST
     let n = S::f64s::LEN;
     let mut v = [S::f64s::splat(simd, 0.0); STEPS];
     for i in 0..n {
-        v[i] = S::f64s::from_slice(simd, &rows[i][from..from + n]);
+        v[i] = load(simd, &rows[i], from);
     }
     transpose::<S>(v)
 }

@@ -85,15 +85,20 @@ fn fill<S: Simd>(simd: S, key: [u32; 2], octet: u64, addresses: &[u64], out: &mu
     }
     for out in out.chunks_exact_mut(n / 2) {
         let out = out.as_flattened_mut();
-        let word = |i: usize| S::f64s::from_slice(simd, &out[i * n..(i + 1) * n]).bitcast::<S::u64s>();
-        let [n0, n1] = pair(simd, word(0), word(1));
-        let [n2, n3] = pair(simd, word(2), word(3));
+        let [n0, n1] = pair(simd, word(simd, out, 0), word(simd, out, 1));
+        let [n2, n3] = pair(simd, word(simd, out, 2), word(simd, out, 3));
         let (even, odd) = ([n0.zip_low(n2), n0.zip_high(n2)], [n1.zip_low(n3), n1.zip_high(n3)]);
         for (half, out) in out.chunks_exact_mut(2 * n).enumerate() {
             even[half].zip_low(odd[half]).store_slice(&mut out[..n]);
             even[half].zip_high(odd[half]).store_slice(&mut out[n..]);
         }
     }
+}
+
+/// Word `i` of all lanes.
+#[inline(always)]
+fn word<S: Simd>(simd: S, words: &[f64], i: usize) -> S::u64s {
+    S::f64s::from_slice(simd, &words[i * S::f64s::LEN..(i + 1) * S::f64s::LEN]).bitcast()
 }
 
 /// Philox4x32-10 on words that stand in the low halves of 64-bit lanes.
