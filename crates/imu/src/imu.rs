@@ -30,6 +30,8 @@ pub struct Imu {
     /// Readout's part of the error of the last sample.
     readout_errors: [[f64; 3]; 2],
     dt: f64,
+    /// 1/dt.
+    rate: f64,
     /// Number of the step of the last sample, of which the ledger tells.
     last: Option<u64>,
 }
@@ -55,6 +57,7 @@ impl Imu {
             chains: spec.readout.map(|r| [Chain::new(r.gyro), Chain::new(r.accel)]),
             readout_errors: [[0.0; 3]; 2],
             dt: 0.0,
+            rate: 0.0,
             last: None,
         })
     }
@@ -123,7 +126,7 @@ impl Imu {
             if dt != self.dt {
                 self.bank.discretise(&self.spec, dt);
                 self.chains.iter_mut().flatten().for_each(|c| c.discretise(dt));
-                self.dt = dt;
+                (self.dt, self.rate) = (dt, 1.0 / dt);
             }
         }
         valid
@@ -207,7 +210,7 @@ impl Imu {
 
     /// What the readout makes of the input and the sources' errors of step `step`.
     fn read_out(&mut self, step: u64, row: usize, sample: &mut Sample) {
-        let (dt, rate) = (self.dt, 1.0 / self.dt);
+        let (dt, rate) = (self.dt, self.rate);
         for (which, chain) in self.chains.iter().flatten().enumerate() {
             let instrument = Instrument::ALL[which];
             let (total, increment, status) = match instrument {

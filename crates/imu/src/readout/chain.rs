@@ -100,7 +100,8 @@ impl Chain {
             for i in 0..3 {
                 let (low, high) = (range[i].0 * duration, range[i].1 * duration);
                 status.saturated[i] = x[i] < low || x[i] > high;
-                x[i] = x[i].max(low).min(high);
+                x[i] = if x[i] < low { low } else { x[i] };
+                x[i] = if x[i] > high { high } else { x[i] };
             }
         }
         if c.output == Output::Rates {

@@ -83,10 +83,10 @@ impl Window {
     fn integral(&self, young: f64, old: f64) -> [f64; 3] {
         let (mut sum, mut age) = ([0.0; 3], 0.0);
         for k in 0..LENGTH {
-            let (dt, mean) = self.intervals[(self.newest + LENGTH - k) % LENGTH];
+            let (dt, mean) = &self.intervals[(self.newest + LENGTH - k) % LENGTH];
             let end = if k + 1 == LENGTH { f64::INFINITY } else { age + dt };
-            let overlap = old.min(end) - young.max(age);
-            if overlap > 0.0 {
+            if end > young {
+                let overlap = old.min(end) - young.max(age);
                 (0..3).for_each(|i| sum[i] += overlap * mean[i]);
             }
             age = end;
