@@ -13,6 +13,7 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rand_distr::{Distribution, StandardNormal};
 use schuler_imu::process::{Form, Innovation};
+use schuler_imu::random::{Level, best_level};
 use schuler_imu::readout::{Bandwidth, Channel, Faults, Lsb, Timing};
 use schuler_imu::{
     Imu, Instrument, Motion, PROCESSES, Process, ProcessKind, Readout, Sample, Source, Spec, Stream, TERMS,
@@ -63,7 +64,12 @@ fn full_chain() -> Spec {
 }
 
 fn samples(bencher: Bencher<'_, '_>, spec: &Spec) {
+    samples_at(best_level(), bencher, spec);
+}
+
+fn samples_at(level: Level, bencher: Bencher<'_, '_>, spec: &Spec) {
     let mut imu = Imu::new(spec, Stream { seed: 1, run: 0 }).expect("capacity");
+    imu.set_level(level);
     let truth = [Truth::rates([0.1, 0.2, 0.3], [1.0, 2.0, 9.8]); SAMPLES];
     let mut out = [Sample::default(); SAMPLES];
     bencher.counter(ItemsCount::new(SAMPLES)).bench_local(|| {
@@ -75,6 +81,17 @@ fn samples(bencher: Bencher<'_, '_>, spec: &Spec) {
 #[divan::bench]
 fn core_set_sample(bencher: Bencher<'_, '_>) {
     samples(bencher, &core_set());
+}
+
+/// In the lanes of every machine of the target, and of AVX2 where there are such.
+#[divan::bench(args = ["baseline", "avx2"])]
+fn core_set_sample_in_lanes(bencher: Bencher<'_, '_>, lanes: &str) {
+    let level = match lanes {
+        #[cfg(target_arch = "x86_64")]
+        "avx2" => best_level().as_avx2().map(Level::Avx2),
+        _ => None,
+    };
+    samples_at(level.unwrap_or(Level::baseline()), bencher, &core_set());
 }
 
 /// A process with one state: transition, mean of the state, and what its normals add to mean and state.
@@ -120,16 +137,14 @@ fn core_set_with_rand_distr<const DRAWS: usize>(bencher: Bencher<'_, '_>) {
             for i in 0..6 {
                 let mut draw = || -> f64 { StandardNormal.sample(&mut rng) };
                 let input = if i < 3 { &omega } else { &f };
-                let mut next = |p: &ByHand, x: &mut f64| {
-                    let w = draw();
-                    let mut y = p.mean * *x + p.to_mean[0] * w;
-                    if DRAWS == 30 {
-                        y += p.to_mean[1] * draw();
-                    }
-                    *x = p.phi * *x + p.to_state * w;
-                    y
-                };
-                let noise = next(&walk, &mut b[i]) + next(&markov, &mut m[i]) + white * draw();
+                // Of each process the normal of its state, and where they are drawn that of its mean.
+                let (w1, v1) = (draw(), if DRAWS == 30 { draw() } else { 0.0 });
+                let (w2, v2) = (draw(), if DRAWS == 30 { draw() } else { 0.0 });
+                let walked = walk.mean * b[i] + walk.to_mean[0] * w1 + walk.to_mean[1] * v1;
+                let correlated = markov.mean * m[i] + markov.to_mean[0] * w2 + markov.to_mean[1] * v2;
+                b[i] = walk.phi * b[i] + walk.to_state * w1;
+                m[i] = markov.phi * m[i] + markov.to_state * w2;
+                let noise = walked + correlated + white * draw();
                 let linear: f64 = (0..3).map(|j| cross[i][j] * input[j]).sum();
                 error[i] = bias[i] + noise + scale[i] * input[i % 3] + linear;
             }
