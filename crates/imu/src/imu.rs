@@ -1,13 +1,14 @@
 //! The injector: true motion in, measured motion out.
 
-use crate::bank::{Bank, STEPS, row_of};
+use crate::bank::{Bank, row_of};
 use crate::error::Error;
+use crate::random::{Level, STEPS};
 use crate::readout::{Chain, Status};
 use crate::sample::Sample;
 use crate::state::State;
 use crate::sums::Sums;
-use crate::term::TOGETHER;
-use crate::{Component, Input, Instrument, Motion, Spec, Stream, Truth};
+use crate::truth::Inputs;
+use crate::{Component, Instrument, Motion, Spec, Stream, Truth};
 
 /// An IMU with its errors.
 ///
@@ -21,12 +22,16 @@ pub struct Imu {
     /// Its processes may be ahead of its step: see [`Bank::settle`].
     state: State,
     sums: Sums,
-    /// What happened in the steps of the block, each in its row.
-    inputs: [Input; STEPS],
+    /// What happened in the last steps, each in its row.
+    inputs: Inputs,
+    /// The sources' errors per instrument and axis.
+    errors: [[[f64; STEPS]; 3]; 2],
     chains: Option<[Chain; 2]>,
     /// Readout's part of the error of the last sample.
     readout_errors: [[f64; 3]; 2],
     dt: f64,
+    /// 1/dt.
+    rate: f64,
     /// Number of the step of the last sample, of which the ledger tells.
     last: Option<u64>,
 }
@@ -47,10 +52,12 @@ impl Imu {
             sums: Sums::new(spec, &bank),
             bank,
             state,
-            inputs: [Input::NONE; STEPS],
+            inputs: Inputs::NONE,
+            errors: [[[0.0; STEPS]; 3]; 2],
             chains: spec.readout.map(|r| [Chain::new(r.gyro), Chain::new(r.accel)]),
             readout_errors: [[0.0; 3]; 2],
             dt: 0.0,
+            rate: 0.0,
             last: None,
         })
     }
@@ -60,6 +67,13 @@ impl Imu {
         self.state = State::start(&self.spec, self.bank.start(&self.spec, stream.key()));
         self.sums = Sums::new(&self.spec, &self.bank);
         self.last = None;
+    }
+
+    /// Calculates in the lanes of `level` in place of the widest that the machine has; no bit of a sample
+    /// depends on it.
+    pub fn set_level(&mut self, level: Level) {
+        self.bank.level = level;
+        self.sums.level = level;
     }
 
     /// The next sample, over an interval of `dt` seconds in which `truth` happened.
@@ -85,102 +99,133 @@ impl Imu {
             samples.fill(Sample { dt, ..Sample::default() });
             return;
         }
-        let alone = (TOGETHER - row_of(self.state.step()) % TOGETHER) % TOGETHER;
-        let (first, truths) = truths.split_at(alone.min(n));
-        let (first_out, samples) = samples.split_at_mut(first.len());
-        let (fours, last) = truths.as_chunks();
-        let (fours_out, last_out) = samples.as_chunks_mut();
-        first.iter().zip(first_out).for_each(|(truth, sample)| self.step_into(truth, sample));
-        fours.iter().zip(fours_out).for_each(|(truths, samples)| self.steps_into(truths, samples));
-        last.iter().zip(last_out).for_each(|(truth, sample)| self.step_into(truth, sample));
+        let mut at = 0;
+        while at < n {
+            if n - at >= STEPS
+                && self.row() == 0
+                && self.state.bank.is_settled()
+                && let (Some(truths), Some(samples)) =
+                    (truths[at..].first_chunk(), samples[at..].first_chunk_mut())
+            {
+                self.steps_into(truths, samples);
+                at += STEPS;
+            } else {
+                self.step_into(&truths[at], &mut samples[at]);
+                at += 1;
+            }
+        }
     }
 
     /// Prepares for steps of `dt` seconds, if that makes sense.
     #[inline]
     fn set_step(&mut self, dt: f64) -> bool {
-        if dt != self.dt && dt > 0.0 && dt.is_finite() {
+        let valid = dt > 0.0 && dt.is_finite();
+        if valid && (dt != self.dt || dt != self.state.bank.dt) {
             self.settle();
-            self.bank.discretise(&self.spec, dt);
-            self.chains.iter_mut().flatten().for_each(|c| c.discretise(dt));
-            self.dt = dt;
+            self.state.bank.set_step(dt);
+            if dt != self.dt {
+                self.bank.discretise(&self.spec, dt);
+                self.chains.iter_mut().flatten().for_each(|c| c.discretise(dt));
+                (self.dt, self.rate) = (dt, 1.0 / dt);
+            }
         }
-        dt == self.dt && dt > 0.0
+        valid
     }
 
     /// The next sample, written in place: copies of it would cost as much as its random numbers.
     #[inline]
     fn step_into(&mut self, truth: &Truth, sample: &mut Sample) {
-        let (step, row) = self.begin(1);
-        let input = &mut self.inputs[row];
-        input.see(truth, self.dt, self.spec.calibration_temperature);
-        input.turn_to(Instrument::Gyro);
-        let omega_error = self.sums.error(Instrument::Gyro, row, input);
-        input.turn_to(Instrument::Accel);
-        let f_error = self.sums.error(Instrument::Accel, row, input);
-        self.finish(step, truth, [&omega_error, &f_error], sample);
+        let row = self.row();
+        self.inputs.set(row, truth, self.dt, self.spec.calibration_temperature);
+        let step = self.begin(1);
+        for (instrument, errors) in Instrument::ALL.into_iter().zip(&mut self.errors) {
+            let [x, y, z] = self.sums.error(instrument, row, &self.inputs);
+            (errors[0][row], errors[1][row], errors[2][row]) = (x, y, z);
+        }
+        self.finish(step, row, truth, sample);
     }
 
-    /// The next [`TOGETHER`] samples.
+    /// The next [`STEPS`] samples, from row 0 on.
     #[inline]
-    fn steps_into(&mut self, truths: &[Truth; TOGETHER], samples: &mut [Sample; TOGETHER]) {
-        let (step, row) = self.begin(TOGETHER);
-        let inputs = &mut self.inputs.as_chunks_mut().0[row / TOGETHER];
-        for (input, truth) in inputs.iter_mut().zip(truths) {
-            input.see(truth, self.dt, self.spec.calibration_temperature);
+    fn steps_into(&mut self, truths: &[Truth; STEPS], samples: &mut [Sample; STEPS]) {
+        // Before all else: what is written in single numbers is then ready to be read in lanes.
+        for (row, truth) in truths.iter().enumerate() {
+            self.inputs.set(row, truth, self.dt, self.spec.calibration_temperature);
         }
-        inputs.iter_mut().for_each(|input| input.turn_to(Instrument::Gyro));
-        let omega_errors = self.sums.errors(Instrument::Gyro, row, inputs);
-        inputs.iter_mut().for_each(|input| input.turn_to(Instrument::Accel));
-        let f_errors = self.sums.errors(Instrument::Accel, row, inputs);
-        for i in 0..TOGETHER {
-            self.finish(step + i as u64, &truths[i], [&omega_errors[i], &f_errors[i]], &mut samples[i]);
+        let step = self.begin(STEPS);
+        for (instrument, errors) in Instrument::ALL.into_iter().zip(&mut self.errors) {
+            self.sums.errors(instrument, &self.inputs, errors);
+        }
+        for (row, (truth, sample)) in truths.iter().zip(samples).enumerate() {
+            self.finish(step + row as u64, row, truth, sample);
         }
     }
 
-    /// Takes the next `n` steps, which are in one block: number and row of the first.
+    /// Row of the next step.
+    fn row(&self) -> usize {
+        row_of(self.state.step())
+    }
+
+    /// Takes the next `n` steps: number of the first.
     #[inline]
-    fn begin(&mut self, n: usize) -> (u64, usize) {
+    fn begin(&mut self, n: usize) -> u64 {
         let step = self.state.step();
         if !self.bank.has(step) {
-            let rows = self.bank.prepare(&mut self.state.bank);
-            self.sums.add_up(&self.bank, rows);
+            self.bank.prepare(&mut self.state.bank, &mut self.sums);
         }
         self.state.bank.step += n as u64;
         self.last = Some(self.state.step() - 1);
-        (step, row_of(step))
+        step
     }
 
-    /// The sample of step `step` from the sources' errors.
+    /// The sample of step `step` in `row`, number by number: pairs read where single numbers were just written
+    /// would have to wait for them.
     #[inline(always)]
-    fn finish(&mut self, step: u64, truth: &Truth, errors: [&[f64; 3]; 2], sample: &mut Sample) {
+    fn finish(&mut self, step: u64, row: usize, truth: &Truth, sample: &mut Sample) {
+        let dt = self.dt;
+        sample.dt = dt;
         if self.chains.is_some() {
-            return self.read_out(step, errors.map(|e| *e), sample);
+            return self.read_out(step, row, sample);
         }
-        let (dt, [&omega_error, &f_error]) = (self.dt, errors);
-        (sample.dt, sample.omega_error, sample.f_error) = (dt, omega_error, f_error);
-        (sample.dtheta, sample.dv) = match truth.motion {
-            Motion::Rates { omega, f } => (measured(omega, omega_error, dt), measured(f, f_error, dt)),
-            Motion::Increments { dtheta, dv } => (add(dtheta, omega_error, dt), add(dv, f_error, dt)),
-        };
+        let [omega_errors, f_errors] = &self.errors;
+        for i in 0..3 {
+            (sample.omega_error[i], sample.f_error[i]) = (omega_errors[i][row], f_errors[i][row]);
+        }
+        match &truth.motion {
+            Motion::Rates { omega, f } => {
+                for i in 0..3 {
+                    sample.dtheta[i] = (omega[i] + omega_errors[i][row]) * dt;
+                    sample.dv[i] = (f[i] + f_errors[i][row]) * dt;
+                }
+            }
+            Motion::Increments { dtheta, dv } => {
+                for i in 0..3 {
+                    sample.dtheta[i] = dtheta[i] + omega_errors[i][row] * dt;
+                    sample.dv[i] = dv[i] + f_errors[i][row] * dt;
+                }
+            }
+        }
         (sample.gyro, sample.accel) = (Status::default(), Status::default());
     }
 
-    /// The sample that the readout makes of the input and the sources' errors of step `step`.
-    fn read_out(&mut self, step: u64, errors: [[f64; 3]; 2], sample: &mut Sample) {
-        let dt = self.dt;
-        let mut out = [([0.0; 3], Status::default()); 2];
-        let mut total = errors;
+    /// What the readout makes of the input and the sources' errors of step `step`.
+    fn read_out(&mut self, step: u64, row: usize, sample: &mut Sample) {
+        let (dt, rate) = (self.dt, self.rate);
         for (which, chain) in self.chains.iter().flatten().enumerate() {
             let instrument = Instrument::ALL[which];
-            let (u, e) = (self.inputs[row_of(step)].of(instrument).u, errors[which]);
+            let (total, increment, status) = match instrument {
+                Instrument::Gyro => (&mut sample.omega_error, &mut sample.dtheta, &mut sample.gyro),
+                Instrument::Accel => (&mut sample.f_error, &mut sample.dv, &mut sample.accel),
+            };
+            let (u, e) = (self.inputs.seen_by(instrument).u(row), &self.errors[which]);
+            let input = [u[0] + e[0][row], u[1] + e[1][row], u[2] + e[2][row]];
             let normals = self.bank.readout_normals(step, instrument);
-            let state = &mut self.state.readout[which];
-            out[which] = chain.step(state, dt, [0, 1, 2].map(|i| u[i] + e[i]), normals);
-            total[which] = [0, 1, 2].map(|i| out[which].0[i] / dt - u[i]);
-            self.readout_errors[which] = [0, 1, 2].map(|i| total[which][i] - e[i]);
+            *status = chain.step(&mut self.state.readout[which], dt, input, normals, increment);
+            for i in 0..3 {
+                total[i] = increment[i] * rate - u[i];
+                self.readout_errors[which][i] = total[i] - e[i][row];
+            }
         }
-        let [(dtheta, gyro), (dv, accel)] = out;
-        *sample = Sample { dt, dtheta, dv, omega_error: total[0], f_error: total[1], gyro, accel };
     }
 
     /// Goes back from what is prepared to where the last sample ended.
@@ -221,8 +266,9 @@ impl Imu {
     pub fn ledger(&self) -> impl Iterator<Item = (Component, [f64; 3])> {
         self.bank.places(&self.spec).filter_map(|(c, place)| {
             let step = self.last?;
-            let mean: f64 = self.bank.means(place, step).iter().sum();
-            let regressor = c.term().regressor(&self.inputs[row_of(step)].of(c.instrument()));
+            let mean = self.bank.mean(place, step);
+            let input = self.inputs.seen_by(c.instrument()).at(row_of(step));
+            let regressor = c.term().regressor(&input);
             Some((c, regressor.columns()[c.coefficient()].map(|g| g * mean)))
         })
     }
@@ -232,14 +278,4 @@ impl Imu {
     pub fn readout_errors(&self) -> [[f64; 3]; 2] {
         self.readout_errors
     }
-}
-
-/// Increment over `dt` of a mean with its error.
-fn measured(mean: [f64; 3], error: [f64; 3], dt: f64) -> [f64; 3] {
-    [0, 1, 2].map(|i| (mean[i] + error[i]) * dt)
-}
-
-/// An increment over `dt` with its error.
-fn add(increment: [f64; 3], error: [f64; 3], dt: f64) -> [f64; 3] {
-    [0, 1, 2].map(|i| increment[i] + error[i] * dt)
 }

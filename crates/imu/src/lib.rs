@@ -7,6 +7,15 @@
 //! [`Instrument`], whose coefficients follow a [`Process`] (how they evolve in time). A [`Spec`]
 //! lists sources, an [`Imu`] steps them.
 //!
+//! How it is checked: every term with every process, taken from the registries, is simulated at three step
+//! lengths and compared in mean, variance and Allan variance at ten averaging times with what both promise.
+//! Of these 69 536 comparisons a few must lie beyond 4 sigma of their estimate: their number must be the expected
+//! one within 4 sigma, and none may lie beyond 5.5 sigma.
+//!
+//! An interval mean takes one normal for each part of a process, exactly for any step: see
+//! [`process::Innovation`]. Eight steps are prepared together in the widest lanes that the machine has, without
+//! a bit of difference to one step at a time in narrow ones.
+//!
 //! ```
 //! use schuler_imu::{Imu, Instrument::Gyro, Source, Spec, Stream, Truth};
 //!
@@ -25,6 +34,7 @@ mod bank;
 mod error;
 mod imu;
 mod instrument;
+mod moving;
 pub mod preset;
 pub mod process;
 pub mod random;
@@ -51,5 +61,5 @@ pub use spec::{MAX_SOURCES, Spec};
 pub use state::State;
 pub use temperature::Temperature;
 pub use term::{TERMS, Term, term};
-pub use truth::{Input, Motion, Truth};
+pub use truth::{Input, Motion, Seen, Truth};
 pub use unit::Unit;

@@ -46,10 +46,10 @@ mod text {
     use crate::bank::{MAX_FIRST, MAX_SECOND};
 
     /// Version of the written form; raised when a number is added or its meaning changes.
-    const VERSION: u32 = 1;
+    const VERSION: u32 = 2;
 
     /// Room for every number of a state.
-    const MAX_NUMBERS: usize = MAX_FIRST + 2 * MAX_SECOND + 2 * ChainState::NUMBERS;
+    const MAX_NUMBERS: usize = 2 + 2 * MAX_FIRST + 5 * MAX_SECOND + 2 * ChainState::NUMBERS;
 
     #[derive(Serialize, Deserialize)]
     #[serde(deny_unknown_fields)]
@@ -66,8 +66,15 @@ mod text {
     impl State {
         /// Hands every number to `each` in a fixed order, to be read or replaced.
         fn visit(&mut self, mut each: impl FnMut(&mut f64)) {
-            self.bank.first.iter_mut().for_each(&mut each);
-            self.bank.second.as_flattened_mut().iter_mut().for_each(&mut each);
+            let bank = &mut self.bank;
+            let mut alike = f64::from(bank.alike);
+            each(&mut alike);
+            bank.alike = alike as u32;
+            each(&mut bank.dt);
+            bank.first.iter_mut().for_each(&mut each);
+            bank.first_covariance.iter_mut().for_each(&mut each);
+            bank.second.as_flattened_mut().iter_mut().for_each(&mut each);
+            bank.second_covariance.as_flattened_mut().iter_mut().for_each(&mut each);
             self.readout.iter_mut().for_each(|r| r.visit(&mut each));
         }
     }
@@ -94,7 +101,7 @@ mod text {
                     "state of an IMU has version {found}, but {need} is needed"
                 )));
             }
-            let bank = BankState { step: w.step, first: [0.0; MAX_FIRST], second: [[0.0; 2]; MAX_SECOND] };
+            let bank = BankState { step: w.step, ..BankState::START };
             let mut state = State { fingerprint: w.fingerprint, bank, readout: [ChainState::START; 2] };
             let mut numbers = w.numbers.0.iter();
             state.visit(|x| *x = numbers.next().copied().unwrap_or(0.0));

@@ -2,26 +2,31 @@
 
 use core::ops::Range;
 
-use crate::bank::{Bank, MAX_MOVING, STEPS, ZERO};
+use crate::bank::{Bank, MAX_FIRST, MAX_MOVING, MAX_SECOND, MAX_WHITE};
 use crate::process::Shape;
-use crate::term::{Coefficients, TOGETHER, Term};
-use crate::{Input, Instrument, Source, Spec, TERMS};
+use crate::random::{Level, STEPS};
+use crate::term::{Coefficients, MAX_COEFFICIENTS, Term};
+use crate::truth::Inputs;
+use crate::{Instrument, Source, Spec, TERMS};
 
 /// A term may stand on each instrument.
 const MAX_GROUPS: usize = 2 * TERMS.len();
 
-/// Interval means of the coefficients of each term, for each step of a block.
+/// Interval means of the coefficients of each term, for each of eight steps.
 #[derive(Clone, Debug)]
 pub(crate) struct Sums {
+    pub level: Level,
     /// Those of the gyroscopes, then those of the accelerometers.
     groups: [Option<Group>; MAX_GROUPS],
     ranges: [Range<usize>; 2],
-    sums: [[Coefficients; STEPS]; MAX_GROUPS],
-    /// The triples of coefficients of which one changes.
-    targets: [Target; MAX_MOVING],
-    moving: usize,
-    /// Places of the means that each of them adds up, one target after the other.
-    parts: [[u16; 3]; MAX_MOVING],
+    sums: [[[f64; STEPS]; MAX_COEFFICIENTS]; MAX_GROUPS],
+    /// Coefficients that change, and the sum of their constant sources.
+    moving: [(u16, f64); MAX_MOVING],
+    len: usize,
+    /// The coefficient of each part.
+    white: [u16; MAX_WHITE],
+    first: [u16; MAX_FIRST],
+    second: [u16; MAX_SECOND],
 }
 
 /// A term on an instrument.
@@ -31,31 +36,19 @@ struct Group {
     term: &'static dyn Term,
 }
 
-/// Three coefficients in a row, which most often are those of the axes.
-#[derive(Clone, Copy, Debug)]
-struct Target {
-    group: usize,
-    triple: usize,
-    /// Sum of their constant sources.
-    base: [f64; 3],
-    /// Most means that one of them adds up; the others add zeros.
-    count: usize,
-}
-
-impl Target {
-    const NONE: Target = Target { group: 0, triple: 0, base: [0.0; 3], count: 0 };
-}
-
 impl Sums {
     /// For the coefficients of `spec` that `bank` keeps, started.
     pub fn new(spec: &Spec, bank: &Bank) -> Sums {
         let mut sums = Sums {
+            level: bank.level,
             groups: [None; MAX_GROUPS],
             ranges: [0..0, 0..0],
-            sums: [[Coefficients::default(); STEPS]; MAX_GROUPS],
-            targets: [Target::NONE; MAX_MOVING],
-            moving: 0,
-            parts: [[ZERO as u16; 3]; MAX_MOVING],
+            sums: [[[0.0; STEPS]; MAX_COEFFICIENTS]; MAX_GROUPS],
+            moving: [(0, 0.0); MAX_MOVING],
+            len: 0,
+            white: [0; MAX_WHITE],
+            first: [0; MAX_FIRST],
+            second: [0; MAX_SECOND],
         };
         sums.group(spec);
         sums.plan(spec, bank);
@@ -88,79 +81,80 @@ impl Sums {
 
     /// Adds up what is constant and lists what changes.
     fn plan(&mut self, spec: &Spec, bank: &Bank) {
-        // Group, coefficient and place of each mean.
-        let (mut list, mut len) = ([(0, 0, 0); MAX_MOVING], 0);
         for (c, place) in bank.places(spec) {
             let Some(group) = self.find(c.instrument(), c.term()) else { continue };
-            for part in place.parts() {
-                if place.shape == Shape::Constant {
-                    self.sums[group].iter_mut().for_each(|row| row[c.coefficient()] += bank.constant[part]);
-                } else {
-                    list[len] = (group, c.coefficient(), part as u16);
-                    len += 1;
+            let slot = (group * MAX_COEFFICIENTS + c.coefficient()) as u16;
+            let parts = place.first..place.first + place.count;
+            match place.shape {
+                Shape::Constant => {
+                    let sum: f64 = bank.constants(place).iter().sum();
+                    self.sums[group][c.coefficient()].iter_mut().for_each(|row| *row += sum);
+                    continue;
                 }
+                Shape::White => self.white[parts].fill(slot),
+                Shape::First => self.first[parts].fill(slot),
+                Shape::Second | Shape::Free => self.second[parts].fill(slot),
+            }
+            if self.moving[..self.len].iter().all(|(known, _)| *known != slot) {
+                self.moving[self.len].0 = slot;
+                self.len += 1;
             }
         }
-        let list = &mut list[..len];
-        list.sort_unstable();
-        let mut first = 0;
-        for same in list.chunk_by(|a, b| (a.0, a.1 / 3) == (b.0, b.1 / 3)) {
-            let (group, triple) = (same[0].0, same[0].1 / 3);
-            let mut counts = [0; 3];
-            for (_, coefficient, part) in same {
-                let i = coefficient % 3;
-                self.parts[first + counts[i]][i] = *part;
-                counts[i] += 1;
-            }
-            let count = counts.into_iter().fold(0, usize::max);
-            let base = self.sums[group][0].as_chunks().0[triple];
-            self.targets[self.moving] = Target { group, triple, base, count };
-            self.moving += 1;
-            first += count;
+        for (slot, base) in &mut self.moving[..self.len] {
+            *base = self.sums.as_flattened()[usize::from(*slot)][0];
         }
     }
 
-    /// Sums the means of the rows of `bank` in `range`.
-    pub fn add_up(&mut self, bank: &Bank, range: Range<usize>) {
-        let mut parts = &self.parts[..];
-        for t in &self.targets[..self.moving] {
-            let (own, rest) = parts.split_at(t.count);
-            let sums = &mut self.sums[t.group][range.clone()];
-            for (sum, row) in sums.iter_mut().zip(&bank.rows()[range.clone()]) {
-                let mut c = t.base;
-                for part in own {
-                    (0..3).for_each(|i| c[i] += row.means[usize::from(part[i])]);
-                }
-                sum.as_chunks_mut().0[t.triple] = c;
-            }
-            parts = rest;
+    /// Goes back to the constant sources.
+    #[inline(always)]
+    pub fn begin(&mut self) {
+        let sums = self.sums.as_flattened_mut();
+        for (slot, base) in &self.moving[..self.len] {
+            sums[usize::from(*slot)] = [*base; STEPS];
         }
     }
 
-    /// Output errors of `instrument` under `input`, which belongs to row `row`.
+    /// The coefficient to which part `i` of a shape belongs, in each row.
+    #[inline(always)]
+    pub fn of(&mut self, shape: Shape, i: usize) -> &mut [f64; STEPS] {
+        let slot = match shape {
+            Shape::White => self.white[i],
+            Shape::First => self.first[i],
+            Shape::Constant | Shape::Second | Shape::Free => self.second[i],
+        };
+        &mut self.sums.as_flattened_mut()[usize::from(slot)]
+    }
+
+    /// The first-order parts from `i` on, before `end`, that belong to the same coefficient.
+    #[inline(always)]
+    pub fn firsts(&self, i: usize, end: usize) -> Range<usize> {
+        let other = self.first[i..end].iter().position(|slot| *slot != self.first[i]);
+        i..other.map_or(end, |n| i + n)
+    }
+
+    /// Output errors of `instrument` in row `row`.
     #[inline]
-    pub fn error(&self, instrument: Instrument, row: usize, input: &Input) -> [f64; 3] {
+    pub fn error(&self, instrument: Instrument, row: usize, inputs: &Inputs) -> [f64; 3] {
+        let input = inputs.seen_by(instrument).at(row);
         let range = self.ranges[instrument as usize].clone();
         let mut error = [0.0; 3];
         for (sums, group) in self.sums[range.clone()].iter().zip(self.groups[range].iter().flatten()) {
-            group.term.add_output(input, &sums[row], &mut error);
+            let mut c = Coefficients::default();
+            for (c, sum) in c.iter_mut().zip(sums) {
+                *c = sum[row];
+            }
+            group.term.add_output(&input, &c, &mut error);
         }
         error
     }
 
-    /// The same of the steps that begin at a row which is a multiple of [`TOGETHER`].
+    /// The same of all rows.
     #[inline]
-    pub fn errors(
-        &self,
-        instrument: Instrument,
-        row: usize,
-        inputs: &[Input; TOGETHER],
-    ) -> [[f64; 3]; TOGETHER] {
+    pub fn errors(&self, instrument: Instrument, inputs: &Inputs, errors: &mut [[f64; STEPS]; 3]) {
         let range = self.ranges[instrument as usize].clone();
-        let mut errors = [[0.0; 3]; TOGETHER];
+        *errors = [[0.0; STEPS]; 3];
         for (sums, group) in self.sums[range.clone()].iter().zip(self.groups[range].iter().flatten()) {
-            group.term.add_outputs(inputs, &sums.as_chunks().0[row / TOGETHER], &mut errors);
+            group.term.add_outputs(self.level, &inputs.seen_by(instrument), sums, errors);
         }
-        errors
     }
 }

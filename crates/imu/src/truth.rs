@@ -1,6 +1,7 @@
 //! What really happens to the IMU over a sample interval, and what a term sees of it.
 
 use crate::Instrument;
+use crate::random::STEPS;
 
 /// True motion and environment over one sample interval, along sensor axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,6 +61,15 @@ impl Truth {
         }
     }
 
+    /// Means over an interval of `dt` seconds of angular rate (rad/s) and specific force (m/s²).
+    #[inline(always)]
+    fn means(&self, dt: f64) -> ([f64; 3], [f64; 3]) {
+        match self.motion {
+            Motion::Rates { omega, f } => (omega, f),
+            Motion::Increments { dtheta, dv } => (dtheta.map(|d| d / dt), dv.map(|d| d / dt)),
+        }
+    }
+
     /// The same at `temperature` (K) that changes by `rate` (K/s).
     pub const fn with_temperature(mut self, temperature: f64, rate: f64) -> Truth {
         self.temperature = temperature;
@@ -100,49 +110,96 @@ pub struct Input {
 }
 
 impl Input {
-    pub(crate) const NONE: Input = Input {
-        u: [0.0; 3],
-        omega: [0.0; 3],
-        f: [0.0; 3],
-        omega_dot: [0.0; 3],
-        delta_t: 0.0,
-        temperature_rate: 0.0,
-        vibration: [0.0; 3],
-    };
-
     /// What `instrument`, calibrated at `calibration` (K), sees of `truth` over an interval of `dt` seconds.
     pub fn new(instrument: Instrument, truth: &Truth, dt: f64, calibration: f64) -> Input {
-        let mut input = Input::NONE;
-        input.see(truth, dt, calibration);
-        input.turn_to(instrument);
-        input
+        let (omega, f) = truth.means(dt);
+        Input {
+            u: match instrument {
+                Instrument::Gyro => omega,
+                Instrument::Accel => f,
+            },
+            omega,
+            f,
+            omega_dot: truth.omega_dot,
+            delta_t: truth.temperature - calibration,
+            temperature_rate: truth.temperature_rate,
+            vibration: truth.vibration,
+        }
     }
+}
 
-    /// Takes in all that both instruments see, in place: this is on the hot path.
+/// Inputs of eight steps, of each number its values in the steps; both instruments see the same.
+#[derive(Clone, Debug)]
+pub(crate) struct Inputs {
+    omega: [[f64; STEPS]; 3],
+    f: [[f64; STEPS]; 3],
+    omega_dot: [[f64; STEPS]; 3],
+    delta_t: [f64; STEPS],
+    temperature_rate: [f64; STEPS],
+    vibration: [[f64; STEPS]; 3],
+}
+
+/// What one instrument sees in eight steps.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen<'a> {
+    u: &'a [[f64; STEPS]; 3],
+    all: &'a Inputs,
+}
+
+impl Inputs {
+    pub const NONE: Inputs = Inputs {
+        omega: [[0.0; STEPS]; 3],
+        f: [[0.0; STEPS]; 3],
+        omega_dot: [[0.0; STEPS]; 3],
+        delta_t: [0.0; STEPS],
+        temperature_rate: [0.0; STEPS],
+        vibration: [[0.0; STEPS]; 3],
+    };
+
+    /// Puts what happens in `truth` in row `row`: see [`Input::new`].
     #[inline]
-    pub(crate) fn see(&mut self, truth: &Truth, dt: f64, calibration: f64) {
-        (self.omega, self.f) = match truth.motion {
-            Motion::Rates { omega, f } => (omega, f),
-            Motion::Increments { dtheta, dv } => (dtheta.map(|d| d / dt), dv.map(|d| d / dt)),
-        };
-        self.omega_dot = truth.omega_dot;
-        self.delta_t = truth.temperature - calibration;
-        self.temperature_rate = truth.temperature_rate;
-        self.vibration = truth.vibration;
+    pub fn set(&mut self, row: usize, truth: &Truth, dt: f64, calibration: f64) {
+        let (omega, f) = truth.means(dt);
+        for i in 0..3 {
+            self.omega[i][row] = omega[i];
+            self.f[i][row] = f[i];
+            self.omega_dot[i][row] = truth.omega_dot[i];
+            self.vibration[i][row] = truth.vibration[i];
+        }
+        self.delta_t[row] = truth.temperature - calibration;
+        self.temperature_rate[row] = truth.temperature_rate;
     }
 
-    /// Makes the own input that of `instrument`.
+    /// What `instrument` sees.
     #[inline]
-    pub(crate) fn turn_to(&mut self, instrument: Instrument) {
-        self.u = match instrument {
-            Instrument::Gyro => self.omega,
-            Instrument::Accel => self.f,
+    pub fn seen_by(&self, instrument: Instrument) -> Seen<'_> {
+        let u = match instrument {
+            Instrument::Gyro => &self.omega,
+            Instrument::Accel => &self.f,
         };
+        Seen { u, all: self }
+    }
+}
+
+impl Seen<'_> {
+    /// The instrument's own input in row `row`.
+    #[inline(always)]
+    pub(crate) fn u(&self, row: usize) -> [f64; 3] {
+        [self.u[0][row], self.u[1][row], self.u[2][row]]
     }
 
-    /// The same for `instrument`.
-    pub(crate) fn of(mut self, instrument: Instrument) -> Input {
-        self.turn_to(instrument);
-        self
+    /// The input of row `row`.
+    #[inline(always)]
+    pub fn at(&self, row: usize) -> Input {
+        let at = |v: &[[f64; STEPS]; 3]| [v[0][row], v[1][row], v[2][row]];
+        Input {
+            u: at(self.u),
+            omega: at(&self.all.omega),
+            f: at(&self.all.f),
+            omega_dot: at(&self.all.omega_dot),
+            delta_t: self.all.delta_t[row],
+            temperature_rate: self.all.temperature_rate[row],
+            vibration: at(&self.all.vibration),
+        }
     }
 }

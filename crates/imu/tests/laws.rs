@@ -2,9 +2,11 @@
 //! has the mean, the variance and the Allan variance that term and process promise, at several step
 //! lengths, from t = 0 on.
 //!
-//! Every comparison is one in sigmas of its estimate, and there are tens of thousands: of so many some
-//! must lie beyond 4 sigma (6 in 100 000). So none may lie beyond 5.5, where a correct program fails
-//! once in a thousand seeds, and not many more than expected beyond 4.
+//! The law is agreement within 4 sigma of the estimate. There are 69 536 comparisons, and of so many a
+//! correct program has about four beyond 4 sigma (6.3 in 100 000, both sides): that none were there would be
+//! as wrong as twenty. So the bound of 4 sigma is kept by their number, which may exceed what is expected by
+//! 4 sigma of its own, and none alone may lie beyond 5.5 sigma, where a correct program fails with one seed
+//! in 400 (3.8 in 100 million each).
 
 use schuler_imu::process::Step;
 use schuler_imu::{Evolution, Imu, Input, Instrument, Process, Source, Spec, Stream, TERMS, Term, Truth};
@@ -171,9 +173,11 @@ fn all_pairs(of: usize, parts: usize) {
         }
     }
     println!("{count} comparisons, the worst at {worst:.2} sigma, {beyond_4} beyond 4 sigma");
-    // Averages of the same run hang together, so exceedances come in groups.
+    // Neighbouring averages of one run share most of its data, so exceedances come in groups of about
+    // three, and the variance of their number is three times that of a Poisson distribution.
     let expected = 6.3e-5 * count as f64;
-    assert!((beyond_4 as f64) < 5.0 + 4.0 * expected, "{beyond_4} beyond 4 sigma, {expected} expected");
+    let bound = expected + 4.0 * (3.0 * expected).sqrt();
+    assert!((beyond_4 as f64) < bound, "{beyond_4} beyond 4 sigma, {expected} expected");
 }
 
 #[test]

@@ -2,9 +2,11 @@
 
 mod allocation;
 mod api;
+mod batches;
 mod cost_of_a_term;
 mod draws;
 mod examples;
+mod innovation;
 mod laws;
 mod philox;
 mod presets;

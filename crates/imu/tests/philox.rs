@@ -1,6 +1,6 @@
 //! The generator against its published known answers.
 
-use schuler_imu::random::{Level, best_level, fill_normals, philox4x32_10};
+use schuler_imu::random::{Level, STEPS, best_level, fill_normals, philox4x32_10};
 
 /// Vectors `philox4x32 10` of the file `kat_vectors` of Random123, version 1.09.
 #[test]
@@ -19,13 +19,15 @@ fn known_answers() {
     }
 }
 
-/// The lanes against the scalar generator and the platform's logarithm, sine and cosine.
+/// The lanes against the scalar generator and the platform's logarithm, sine and cosine: the stated errors of
+/// the polynomials, 3e-11 at most, of numbers up to 6.76.
 #[test]
 fn normals_are_those_of_box_and_muller() {
     let key = [0x1234_5678, 0x9abc_def0];
     let addresses: Vec<u64> = (0..64_u64).map(|i| i.wrapping_mul(0x9e37_79b9_7f4a_7c15)).collect();
     for block in (0..200).chain([u64::MAX / 3]) {
-        let normals = fill(best_level(), key, block, &addresses);
+        let normals = fill(best_level(), key, block / 2, &addresses);
+        let at = 4 * (block % 2) as usize;
         for (i, a) in addresses.iter().enumerate() {
             let w = philox4x32_10([block as u32, (block >> 32) as u32, *a as u32, (a >> 32) as u32], key);
             for q in 0..2 {
@@ -34,18 +36,33 @@ fn normals_are_those_of_box_and_muller() {
                 let sign = if w[2 * q + 1] & 1 == 1 { -1.0 } else { 1.0 };
                 let (sin, cos) = (turn * std::f64::consts::PI).sin_cos();
                 let r = sign * (-2.0 * u.ln()).sqrt();
-                for (found, expected) in [(normals[2 * q][i], r * cos), (normals[2 * q + 1][i], r * sin)] {
-                    assert!((found - expected).abs() < 2e-12, "{found} {expected}");
+                for (found, expected) in
+                    [(normals[i][at + 2 * q], r * cos), (normals[i][at + 2 * q + 1], r * sin)]
+                {
+                    assert!((found - expected).abs() < 1.5e-10, "{found} {expected}");
                 }
             }
         }
     }
 }
 
-fn fill(level: Level, key: [u32; 2], block: u64, addresses: &[u64]) -> [Vec<f64>; 4] {
-    let mut out = [(); 4].map(|()| vec![0.0; addresses.len()]);
-    fill_normals(level, key, block, addresses, out.each_mut().map(|o| &mut o[..]));
+fn fill(level: Level, key: [u32; 2], octet: u64, addresses: &[u64]) -> Vec<[f64; STEPS]> {
+    let mut out = vec![[0.0; STEPS]; addresses.len()];
+    fill_normals(level, key, octet, addresses, &mut out);
     out
+}
+
+/// Every level that this machine has.
+pub fn levels() -> Vec<Level> {
+    let best = best_level();
+    let mut levels = vec![Level::baseline(), best];
+    #[cfg(target_arch = "x86_64")]
+    {
+        levels.extend(best.as_sse2().map(Level::Sse2));
+        levels.extend(best.as_sse4_2().map(Level::Sse4_2));
+        levels.extend(best.as_avx2().map(Level::Avx2));
+    }
+    levels
 }
 
 /// Every width of lanes gives the same bits.
@@ -53,15 +70,8 @@ fn fill(level: Level, key: [u32; 2], block: u64, addresses: &[u64]) -> [Vec<f64>
 fn all_lanes_agree_bit_for_bit() {
     let addresses: Vec<u64> = (0..1024_u64).map(|i| i.wrapping_mul(0xdead_beef_cafe_f00d)).collect();
     let best = best_level();
-    let mut levels = vec![Level::baseline()];
-    #[cfg(target_arch = "x86_64")]
-    {
-        levels.extend(best.as_sse2().map(Level::Sse2));
-        levels.extend(best.as_sse4_2().map(Level::Sse4_2));
-        levels.extend(best.as_avx2().map(Level::Avx2));
-    }
     let expected = fill(best, [3, 4], 77, &addresses);
-    for level in levels {
+    for level in levels() {
         assert!(fill(level, [3, 4], 77, &addresses) == expected, "{level:?}");
     }
 }

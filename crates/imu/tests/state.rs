@@ -67,7 +67,7 @@ fn a_state_survives_text() {
     let first = run(&mut imu);
     imu.restore(&state).unwrap();
     assert_eq!(run(&mut imu), first);
-    let foreign = text.replace("\"version\":1", "\"version\":2");
+    let foreign = text.replace("\"version\":2", "\"version\":1");
     let error = serde_json::from_str::<schuler_imu::State>(&foreign).unwrap_err().to_string();
-    assert!(error.contains("version 2, but 1 is needed"), "{error}");
+    assert!(error.contains("version 1, but 2 is needed"), "{error}");
 }

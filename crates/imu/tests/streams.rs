@@ -1,16 +1,16 @@
 //! Draws as draws: their distribution, their tails, their independence.
 
-use schuler_imu::random::{best_level, fill_normals};
+use schuler_imu::random::{STEPS, best_level, fill_normals};
 use schuler_imu::{Imu, Instrument, Process, Source, Spec, Stream, TERMS, Truth, process_kind};
 use statrs::distribution::{ContinuousCDF, Normal};
 
-fn normals(key: [u32; 2], address: u64, blocks: u64) -> Vec<f64> {
+fn normals(key: [u32; 2], address: u64, octets: u64) -> Vec<f64> {
     let addresses: Vec<u64> = (address..address + 64).collect();
+    let mut rows = vec![[0.0; STEPS]; addresses.len()];
     let mut out = Vec::new();
-    let mut rows = [(); 4].map(|()| vec![0.0; addresses.len()]);
-    for block in 0..blocks {
-        fill_normals(best_level(), key, block, &addresses, rows.each_mut().map(|r| &mut r[..]));
-        rows.iter().for_each(|r| out.extend_from_slice(r));
+    for octet in 0..octets {
+        fill_normals(best_level(), key, octet, &addresses, &mut rows);
+        out.extend_from_slice(rows.as_flattened());
     }
     out
 }
@@ -20,7 +20,7 @@ fn normals(key: [u32; 2], address: u64, blocks: u64) -> Vec<f64> {
 fn draws_are_normal() {
     let normal = Normal::standard();
     for seed in 0..4 {
-        let mut x = normals([seed, 99], 0, 2000);
+        let mut x = normals([seed, 99], 0, 1000);
         x.sort_by(f64::total_cmp);
         let n = x.len() as f64;
         let distance = x
@@ -43,7 +43,7 @@ fn tails_are_those_of_a_normal() {
     let mut moments = [0.0; 4];
     let mut n = 0.0;
     for key in 0..80 {
-        for x in normals([key, 5], 1 << 40, 2000) {
+        for x in normals([key, 5], 1 << 40, 1000) {
             n += 1.0;
             let mut power = 1.0;
             for m in &mut moments {

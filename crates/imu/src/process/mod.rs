@@ -11,6 +11,7 @@ mod constant;
 mod evolution;
 mod flicker;
 mod gauss_markov;
+mod innovation;
 mod linear;
 mod quantization;
 mod ramp;
@@ -23,6 +24,7 @@ mod white;
 
 pub use arguments::{Process, Value};
 pub use evolution::{Evolution, Polynomial};
+pub use innovation::{Innovation, SETTLED};
 pub use linear::{LinearModel, MAX_STATES};
 pub use step::{Shape, Step};
 

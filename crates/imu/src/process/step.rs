@@ -19,6 +19,9 @@ pub struct Step {
 }
 
 impl Step {
+    /// All zero.
+    pub const NONE: Step = Step { phi: [[0.0; 2]; 2], mean: [0.0; 2], noise: [[0.0; 3]; 3] };
+
     /// A step with one state: `x' = phi x + n11 w1`, `y = mean x + n31 w1 + n33 w3`.
     pub fn first_order(phi: f64, mean: f64, [n11, n31, n33]: [f64; 3]) -> Step {
         Step {
@@ -27,21 +30,6 @@ impl Step {
             noise: [[n11, 0.0, 0.0], [0.0; 3], [n31, 0.0, n33]],
         }
     }
-
-    /// Noise of state 0 or 1, or of the mean (2), from three normals.
-    #[inline]
-    pub(crate) fn noise_of(&self, row: usize, w: [f64; 3]) -> f64 {
-        let n = &self.noise[row];
-        n[0] * w[0] + n[1] * w[1] + n[2] * w[2]
-    }
-
-    /// Moves the states `x` without noise and returns the interval mean.
-    #[inline]
-    pub(crate) fn coast(&self, x: &mut [f64; 2]) -> f64 {
-        let ([x1, x2], phi) = (*x, &self.phi);
-        *x = [phi[0][0] * x1 + phi[0][1] * x2, phi[1][0] * x1 + phi[1][1] * x2];
-        self.mean[0] * x1 + self.mean[1] * x2
-    }
 }
 
 /// What one step of a process needs: decides how an injector keeps it.
@@ -49,11 +37,11 @@ impl Step {
 pub enum Shape {
     /// Nothing: the coefficient keeps the first state of [`ProcessKind::initial`](super::ProcessKind::initial).
     Constant,
-    /// No state and w3.
+    /// No state, a normal.
     White,
-    /// The first state, w1 and w3.
+    /// One state, a normal.
     First,
-    /// Two states and three normals.
+    /// Two states, a normal.
     Second,
     /// Two states that move freely, without noise.
     Free,

@@ -2,7 +2,7 @@
 
 use core::fmt::Display;
 
-use super::{Address, Level, Stream, best_level, fill_normals};
+use super::{Address, Level, STEPS, Stream, best_level, fill_normals};
 
 /// Standard normals for whatever is random in a run beside an [`Imu`](crate::Imu): noise of other measurements, errors at the start.
 ///
@@ -30,9 +30,10 @@ impl Draws {
 
     /// Four independent standard normals for the number `step`.
     pub fn normals(&self, step: u64) -> [f64; 4] {
-        let mut out = [[0.0; 8]; 4];
-        let [a, b, c, d] = &mut out;
-        fill_normals(self.level, self.key, step, &[self.address; 8], [a, b, c, d]);
-        out.map(|lane| lane[0])
+        let mut out = [[0.0; STEPS]; 4];
+        fill_normals(self.level, self.key, step / 2, &[self.address; 4], &mut out);
+        // The block of words of this number is the first or the second half.
+        let [[a, b, c, d, e, f, g, h], ..] = out;
+        if step.is_multiple_of(2) { [a, b, c, d] } else { [e, f, g, h] }
     }
 }

@@ -7,7 +7,7 @@ mod stream;
 
 pub use draws::Draws;
 pub use fearless_simd::Level;
-pub use lanes::{best_level, fill_normals};
+pub use lanes::{STEPS, best_level, fill_normals};
 pub use philox::philox4x32_10;
 pub use stream::Stream;
 pub(crate) use stream::{Address, Fnv, Key};

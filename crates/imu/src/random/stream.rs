@@ -1,6 +1,6 @@
 use core::fmt::{self, Write};
 
-use super::{Level, fill_normals, philox4x32_10};
+use super::{Level, STEPS, fill_normals, philox4x32_10};
 
 /// Which run of which experiment: with the scenario, this determines every random number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -27,9 +27,9 @@ impl Stream {
 impl Key {
     /// The first two standard normals of `address`, for what is drawn once per run.
     pub(crate) fn start(self, level: Level, address: Address) -> [f64; 2] {
-        let (mut n0, mut n1, mut n2, mut n3) = ([0.0; 8], [0.0; 8], [0.0; 8], [0.0; 8]);
-        fill_normals(level, self.0, 0, &[address.0; 8], [&mut n0, &mut n1, &mut n2, &mut n3]);
-        [n0[0], n1[0]]
+        let mut normals = [[0.0; STEPS]; 4];
+        fill_normals(level, self.0, 0, &[address.0; 4], &mut normals);
+        [normals[0][0], normals[0][1]]
     }
 }
 

@@ -52,6 +52,7 @@ impl LowPass {
     }
 
     /// Output of one axis over a step with input `u`; moves its state (x, x').
+    #[inline(always)]
     pub fn step(&self, [x, v]: &mut [f64; 2], u: f64) -> f64 {
         let (z, phi) = (*x - u, &self.phi);
         let (z1, v1) = (phi[0][0] * z + phi[0][1] * *v, phi[1][0] * z + phi[1][1] * *v);

@@ -1,5 +1,5 @@
 use super::bandwidth::LowPass;
-use super::faults::Fault;
+use super::faults::{Fault, Thresholds};
 use super::window::Window;
 use super::{Channel, Output, Status};
 
@@ -11,6 +11,9 @@ pub(crate) const DRAWS: usize = 2;
 pub(crate) struct Chain {
     channel: Channel,
     low_pass: Option<LowPass>,
+    faults: Thresholds,
+    /// Least significant bits in a unit of the output, per axis.
+    bits: [f64; 3],
 }
 
 /// What changes in a readout from step to step.
@@ -57,7 +60,8 @@ impl ChainState {
 
 impl Chain {
     pub fn new(channel: Channel) -> Chain {
-        Chain { channel, low_pass: None }
+        let bits = channel.lsb.map_or([0.0; 3], |lsb| lsb.size.map(|size| 1.0 / size));
+        Chain { channel, low_pass: None, faults: Thresholds::new(&channel.faults), bits }
     }
 
     /// Prepares for steps of `dt` seconds.
@@ -65,71 +69,91 @@ impl Chain {
         self.low_pass = self.channel.bandwidth.map(|b| LowPass::new(b, self.channel.sampling, dt));
     }
 
-    /// The increments put out over a step in which the mean input with all its errors was `mean`.
+    /// Turns the mean input over a step with all its errors into the increment that is put out.
+    #[inline]
     pub fn step(
         &self,
         state: &mut ChainState,
         dt: f64,
         mut mean: [f64; 3],
         [jitter, fault]: [f64; DRAWS],
-    ) -> ([f64; 3], Status) {
+        out: &mut [f64; 3],
+    ) -> Status {
         let (c, first) = (&self.channel, !state.started);
         state.started = true;
         if let Some(low_pass) = &self.low_pass {
-            for (filter, m) in state.filter.iter_mut().zip(&mut mean) {
+            for i in 0..3 {
                 if first {
                     // Settled on its first input.
-                    *filter = [*m, 0.0];
+                    state.filter[i] = [mean[i], 0.0];
                 }
-                *m = low_pass.step(filter, *m);
+                mean[i] = low_pass.step(&mut state.filter[i], mean[i]);
             }
         }
         let mut duration = dt;
-        let mut increment = mean.map(|m| m * dt);
+        let mut x = [mean[0] * dt, mean[1] * dt, mean[2] * dt];
         if !c.timing.is_ideal() {
-            (increment, duration) = state.window.sample(&c.timing, dt, mean, jitter, first);
+            (x, duration) = state.window.sample(&c.timing, dt, mean, jitter, first);
         }
         let mut status = Status::default();
         if let Some(range) = &c.range {
             for i in 0..3 {
                 let (low, high) = (range[i].0 * duration, range[i].1 * duration);
-                status.saturated[i] = increment[i] < low || increment[i] > high;
-                increment[i] = increment[i].clamp(low, high);
+                status.saturated[i] = x[i] < low || x[i] > high;
+                x[i] = if x[i] < low { low } else { x[i] };
+                x[i] = if x[i] > high { high } else { x[i] };
             }
         }
-        // A device that puts out rates divides by the window that it believes in or has measured; over
-        // an empty window it repeats itself.
-        let mut out = match c.output {
-            Output::Increments => increment,
-            Output::Rates if duration > 0.0 => increment.map(|d| d / duration),
-            Output::Rates => state.last,
-        };
+        if c.output == Output::Rates {
+            // A device that puts out rates divides by the window that it believes in or has measured; over
+            // an empty window it repeats itself.
+            for i in 0..3 {
+                x[i] = if duration > 0.0 { x[i] / duration } else { state.last[i] };
+            }
+        }
         if let Some(lsb) = &c.lsb {
             for i in 0..3 {
-                let wanted = out[i] + if lsb.carry { state.remainder[i] } else { 0.0 };
-                out[i] = libm::round(wanted / lsb.size[i]) * lsb.size[i];
-                state.remainder[i] = wanted - out[i];
+                let wanted = x[i] + if lsb.carry { state.remainder[i] } else { 0.0 };
+                x[i] = round(wanted * self.bits[i]) * lsb.size[i];
+                state.remainder[i] = wanted - x[i];
             }
         }
-        match c.faults.decide(fault) {
-            _ if state.stuck > 0 => {
-                state.stuck -= 1;
-                (status.stuck, out) = (true, state.last);
-            }
-            Fault::None => {}
-            Fault::Drop => (status.dropped, out) = (true, [0.0; 3]),
-            Fault::Repeat => (status.repeated, out) = (true, state.last),
-            Fault::Stick => {
-                state.stuck = c.faults.stuck_samples.saturating_sub(1);
-                (status.stuck, out) = (true, state.last);
-            }
+        let fault = self.faults.decide(fault);
+        if state.stuck > 0 || fault != Fault::None {
+            self.fail(state, fault, &mut x, &mut status);
         }
         if !status.dropped {
-            state.last = out;
+            state.last = x;
         }
-        match c.output {
-            Output::Increments => (out, status),
-            Output::Rates => (out.map(|m| m * dt), status),
+        let scale = if c.output == Output::Rates { dt } else { 1.0 };
+        (0..3).for_each(|i| out[i] = x[i] * scale);
+        status
+    }
+
+    /// What a fault makes of the sample `x`.
+    #[cold]
+    fn fail(&self, state: &mut ChainState, fault: Fault, x: &mut [f64; 3], status: &mut Status) {
+        match fault {
+            _ if state.stuck > 0 => {
+                state.stuck -= 1;
+                (status.stuck, *x) = (true, state.last);
+            }
+            Fault::None => {}
+            Fault::Drop => (status.dropped, *x) = (true, [0.0; 3]),
+            Fault::Repeat => (status.repeated, *x) = (true, state.last),
+            Fault::Stick => {
+                state.stuck = self.channel.faults.stuck_samples.saturating_sub(1);
+                (status.stuck, *x) = (true, state.last);
+            }
         }
     }
+}
+
+/// The nearest integer, and the even one of two, without a branch: numbers from 2^52 on are integers, and
+/// adding that number leaves no room for a fraction.
+#[inline(always)]
+fn round(x: f64) -> f64 {
+    const INTEGERS: f64 = 4_503_599_627_370_496.0;
+    let size = x.abs();
+    if size < INTEGERS { ((size + INTEGERS) - INTEGERS).copysign(x) } else { x }
 }

@@ -40,22 +40,51 @@ impl Faults {
         let length = f64::from(self.stuck_samples);
         need(self.stick == 0.0 || length > 0.0, "faults.stuck_samples", length, "1 or more")
     }
+}
 
-    /// What the standard normal `w` decides: its probability below is uniform from 0 to 1.
-    pub(super) fn decide(&self, w: f64) -> Fault {
-        let all = self.drop + self.repeat + self.stick;
-        if all == 0.0 {
-            return Fault::None;
-        }
-        let uniform = 0.5 * erfc(-w * FRAC_1_SQRT_2);
-        if uniform < self.drop {
-            Fault::Drop
-        } else if uniform < self.drop + self.repeat {
-            Fault::Repeat
-        } else if uniform < all {
-            Fault::Stick
-        } else {
+/// Faults by standard normals, which decide as the uniform numbers do that they are of their distribution.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Thresholds {
+    drop: f64,
+    repeat: f64,
+    stick: f64,
+}
+
+impl Thresholds {
+    pub fn new(f: &Faults) -> Thresholds {
+        let repeat = f.drop + f.repeat;
+        let [drop, repeat, stick] = [f.drop, repeat, repeat + f.stick].map(quantile);
+        Thresholds { drop, repeat, stick }
+    }
+
+    /// What the standard normal `w` decides.
+    #[inline]
+    pub fn decide(&self, w: f64) -> Fault {
+        if w >= self.stick {
             Fault::None
+        } else if w < self.drop {
+            Fault::Drop
+        } else if w < self.repeat {
+            Fault::Repeat
+        } else {
+            Fault::Stick
         }
     }
+}
+
+/// The number below which a standard normal is with probability `p`, by halving; no draw of ours is beyond 8.
+fn quantile(p: f64) -> f64 {
+    let (mut low, mut high) = (-8.0, 8.0);
+    if p == 0.0 {
+        return low;
+    }
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if 0.5 * erfc(-middle * FRAC_1_SQRT_2) < p {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    high
 }

@@ -42,6 +42,7 @@ impl Window {
     pub const START: Window = Window { intervals: [(0.0, [0.0; 3]); LENGTH], newest: 0, age: 0.0 };
 
     /// Takes in an interval; returns the integral over the window that is sampled and its length.
+    #[inline]
     pub fn sample(
         &mut self,
         timing: &Timing,
@@ -78,13 +79,14 @@ impl Window {
     }
 
     /// Integral over the ages from `young` to `old`.
+    #[inline]
     fn integral(&self, young: f64, old: f64) -> [f64; 3] {
         let (mut sum, mut age) = ([0.0; 3], 0.0);
         for k in 0..LENGTH {
-            let (dt, mean) = self.intervals[(self.newest + LENGTH - k) % LENGTH];
+            let (dt, mean) = &self.intervals[(self.newest + LENGTH - k) % LENGTH];
             let end = if k + 1 == LENGTH { f64::INFINITY } else { age + dt };
-            let overlap = old.min(end) - young.max(age);
-            if overlap > 0.0 {
+            if end > young {
+                let overlap = old.min(end) - young.max(age);
                 (0..3).for_each(|i| sum[i] += overlap * mean[i]);
             }
             age = end;

@@ -24,6 +24,6 @@ impl Term for Asymmetry {
     }
     #[inline(always)]
     fn output(&self, x: &Input, c: &Coefficients) -> [f64; 3] {
-        by_axis(c, x.u.map(f64::abs))
+        by_axis(c, [x.u[0].abs(), x.u[1].abs(), x.u[2].abs()])
     }
 }

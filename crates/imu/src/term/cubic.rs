@@ -22,6 +22,7 @@ impl Term for Cubic {
     }
     #[inline(always)]
     fn output(&self, x: &Input, c: &Coefficients) -> [f64; 3] {
-        by_axis(c, x.u.map(|u| u * u * u))
+        let [ux, uy, uz] = x.u;
+        by_axis(c, [ux * ux * ux, uy * uy * uy, uz * uz * uz])
     }
 }

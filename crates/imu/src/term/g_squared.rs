@@ -30,6 +30,7 @@ impl Term for GSquared {
     }
     #[inline(always)]
     fn output(&self, x: &Input, c: &Coefficients) -> [f64; 3] {
-        by_matrix(c, x.f.map(|f| f * f))
+        let [fx, fy, fz] = x.f;
+        by_matrix(c, [fx * fx, fy * fy, fz * fz])
     }
 }

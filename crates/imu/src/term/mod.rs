@@ -4,6 +4,10 @@
 
 use core::fmt;
 
+use fearless_simd::{Simd, dispatch};
+
+use crate::random::{Level, STEPS};
+use crate::truth::Seen;
 use crate::{Input, Instrument, Unit};
 
 mod anisoelastic;
@@ -72,9 +76,6 @@ const PRODUCTS: &[&str] = &["x_yz", "x_zx", "x_xy", "y_yz", "y_zx", "y_xy", "z_y
 /// The coefficients of a term, the first [`Term::len`] in use and the others zero.
 pub type Coefficients = [f64; MAX_COEFFICIENTS];
 
-/// Steps that [`Term::add_outputs`] takes together.
-pub const TOGETHER: usize = 4;
-
 /// An error term: linear in its coefficients, possibly non-linear in the input.
 pub trait Term: Sync {
     /// Name in files and column headers, `scale_factor`.
@@ -105,24 +106,28 @@ pub trait Term: Sync {
     /// Output error per axis (rad/s or m/s²) of coefficients `c` under `input`; linear in `c`.
     fn output(&self, input: &Input, c: &Coefficients) -> [f64; 3];
 
-    /// Adds the output error to `sum`. A result that travels through memory in pieces of different
-    /// widths costs more than the term itself; so the sum is kept where it is.
+    /// Adds the output error to `sum`, which is kept where it is: a result that travels through memory in
+    /// pieces of different widths costs more than the term itself.
     fn add_output(&self, input: &Input, c: &Coefficients, sum: &mut [f64; 3]) {
         let [x, y, z] = self.output(input, c);
-        *sum = [sum[0] + x, sum[1] + y, sum[2] + z];
+        (sum[0], sum[1], sum[2]) = (sum[0] + x, sum[1] + y, sum[2] + z);
     }
 
-    /// Adds the output errors of several steps, each with its own coefficients, to `sums`: one call
-    /// for all of them.
+    /// Adds the output errors of several steps, each with its own coefficients (of each in turn, its values
+    /// in the steps), to those per axis in `sums`: one call for all of them, in lanes.
     fn add_outputs(
         &self,
-        inputs: &[Input; TOGETHER],
-        c: &[Coefficients; TOGETHER],
-        sums: &mut [[f64; 3]; TOGETHER],
+        level: Level,
+        inputs: &Seen<'_>,
+        c: &[[f64; STEPS]; MAX_COEFFICIENTS],
+        sums: &mut [[f64; STEPS]; 3],
     ) {
-        for i in 0..TOGETHER {
-            self.add_output(&inputs[i], &c[i], &mut sums[i]);
-        }
+        let [x, y, z] = sums;
+        dispatch!(level, simd => {
+            add_axis::<_, _, 0>(simd, self, *inputs, c, x);
+            add_axis::<_, _, 1>(simd, self, *inputs, c, y);
+            add_axis::<_, _, 2>(simd, self, *inputs, c, z);
+        });
     }
 
     /// Number of coefficients.
@@ -144,6 +149,29 @@ pub trait Term: Sync {
             r.columns[j] = self.output(input, &unit);
         }
         r
+    }
+}
+
+/// Adds the output error of one axis. Steps do not meet, so the width of the lanes, which the compiler
+/// fills where one axis comes after the other, does not change a bit.
+#[inline(always)]
+fn add_axis<S: Simd, T: Term + ?Sized, const AXIS: usize>(
+    _: S,
+    term: &T,
+    inputs: Seen<'_>,
+    c: &[[f64; STEPS]; MAX_COEFFICIENTS],
+    sum: &mut [f64; STEPS],
+) {
+    let mut errors = [0.0; STEPS];
+    for i in 0..STEPS {
+        let mut own = Coefficients::default();
+        for (own, c) in own.iter_mut().zip(c) {
+            *own = c[i];
+        }
+        errors[i] = term.output(&inputs.at(i), &own)[AXIS];
+    }
+    for i in 0..STEPS {
+        sum[i] += errors[i];
     }
 }
 
@@ -179,22 +207,26 @@ impl PartialEq for dyn Term {
 }
 
 /// Product per axis.
+#[inline(always)]
 fn by_axis(c: &Coefficients, x: [f64; 3]) -> [f64; 3] {
     [c[0] * x[0], c[1] * x[1], c[2] * x[2]]
 }
 
 /// Product of the 3 × 3 matrix `c`, row by row, with `x`.
+#[inline(always)]
 fn by_matrix(c: &Coefficients, x: [f64; 3]) -> [f64; 3] {
     let row = |i: usize| c[i] * x[0] + c[i + 1] * x[1] + c[i + 2] * x[2];
     [row(0), row(3), row(6)]
 }
 
 /// Products yz, zx, xy of the components of `v`.
+#[inline(always)]
 fn products([x, y, z]: [f64; 3]) -> [f64; 3] {
     [y * z, z * x, x * y]
 }
 
 /// The matrix [ω×][ω×] + [ω̇×] that takes a lever arm to the acceleration of its end, 1/s².
+#[inline(always)]
 fn lever_gradient(input: &Input) -> [[f64; 3]; 3] {
     let ([x, y, z], [ax, ay, az]) = (input.omega, input.omega_dot);
     [

@@ -22,6 +22,7 @@ impl Term for ThermalScaleFactor {
     }
     #[inline(always)]
     fn output(&self, x: &Input, c: &Coefficients) -> [f64; 3] {
-        by_axis(c, x.u.map(|u| u * x.delta_t))
+        let [ux, uy, uz] = x.u;
+        by_axis(c, [ux * x.delta_t, uy * x.delta_t, uz * x.delta_t])
     }
 }
