@@ -105,17 +105,18 @@ impl AnyHeading {
         self.elapsed += dt;
     }
 
-    /// The base stands still now.
-    pub fn measure(&mut self) {
+    /// The base has this `velocity` now (m/s) along the first two axes of the level frame: zero, but for what a simulation
+    /// adds as noise, which has no direction.
+    pub fn measure(&mut self, velocity: [f64; 2]) {
         let dt = core::mem::take(&mut self.elapsed);
         self.predict(dt);
         let mut x = SVector::<f64, 6>::zeros();
         let r = self.noise.measurement * self.noise.measurement;
         for k in 0..2 {
-            // z = v_k, the row that takes component k; Joseph form.
+            // z = v_k - what is known, the row that takes component k; Joseph form.
             let s = self.p[(k, k)] + r;
             let gain = self.p.column(k) / s;
-            x += gain * (self.v[k] - x[k]);
+            x += gain * (self.v[k] - velocity[k] - x[k]);
             let mut keep = Six::identity();
             for i in 0..6 {
                 keep[(i, k)] -= gain[i];

@@ -17,7 +17,7 @@ fn run(base: &Base, duration: f64) -> AnyHeading {
         align.advance(motion, dt);
         steps += 1;
         if steps % 20 == 0 {
-            align.measure();
+            align.measure([0.0; 2]);
         }
     });
     align

@@ -4,7 +4,8 @@ use schuler_frames::{B, Rot, T, Vec3};
 use schuler_imu::process::LinearModel;
 use schuler_imu::{Instrument, Truth};
 use schuler_strapdown::filter::{
-    Accumulator, Filter, Measurement, Model, NavState, NavStates, Now, Position, Velocity, measurement::HORIZONTAL,
+    Accumulator, Filter, Measurement, Model, NavState, NavStates, Now, Position, Velocity,
+    measurement::HORIZONTAL,
 };
 use schuler_strapdown::{Coning, ErrorDynamics, Increments, LocalLevel, Mechanization, Pva, Samples};
 

@@ -115,13 +115,13 @@ impl Limit {
         let omega = self.laws.omega_north().abs();
         let per_hour = |x: f64| x.to_degrees() * 3600.0;
         if omega < 1e-6 * self.laws.site.omega_ie {
-            return Some("heading cannot be had: at a pole the Earth rate has no horizontal part".into());
+            return Some("Heading cannot be had: at a pole the Earth rate has no horizontal part".into());
         }
         let (bias, noise) = (self.bias()[2], self.noise(t)[2]);
         let whole = if self.one_position { bias.hypot(noise) } else { noise };
         (whole > LARGE).then(|| {
             format!(
-                "heading cannot be had: the gyro and accelerometer errors are worth {:.3} deg/h of the horizontal Earth rate of {:.3} deg/h ({:.3} deg/h by what stays, {:.3} deg/h by noise over {t} s)",
+                "Heading cannot be had: the gyro and accelerometer errors are worth {:.3} deg/h of the horizontal Earth rate of {:.3} deg/h ({:.3} deg/h by what stays, {:.3} deg/h by noise over {t} s)",
                 per_hour(whole * omega),
                 per_hour(omega),
                 per_hour(bias * omega),

@@ -130,7 +130,7 @@ output: {{ every: 60 s, formats: [csv] }}
         (coarse("lat: 90 deg", "0.01 deg/h"), "at a pole"),
     ] {
         assert!(
-            record.notes.iter().any(|n| n.contains("heading cannot be had") && n.contains(word)),
+            record.notes.iter().any(|n| n.contains("Heading cannot be had") && n.contains(word)),
             "{:?}",
             record.notes
         );

@@ -108,9 +108,7 @@ impl Document {
         };
         let gate = |w: &written::Windowed| w.gate.as_ref().map_or(Ok(GATE), |q| below_one(q, "probability"));
         let (kind, cap) = match strategy {
-            written::Strategy::Fading(w) => {
-                (StrategyKind::Fading(at_least_one(&w.factor, "factor")?), w.cap)
-            }
+            written::Strategy::Fading(w) => (StrategyKind::Fading(at_least_one(&w.factor, "factor")?), w.cap),
             written::Strategy::SingleFactor(w) => (StrategyKind::SingleFactor(gate(w)?), w.cap),
             written::Strategy::MultipleFading(w) => (StrategyKind::MultipleFading(gate(w)?), w.cap),
             written::Strategy::StrongTracking(w) => {

@@ -76,7 +76,7 @@ impl Document {
                     .help("`duration` is the time of a simulated alignment"));
             }
             let motion = self.motion_of(w, "align", samples as f64 / imu.rate)?;
-            return Ok(Origin::Simulated { motion, imu, samples });
+            return Ok(Origin::Simulated { motion, imu: Box::new(imu), samples });
         };
         for (node, key) in [
             (w.imu.as_ref().map(|k| k.node), "imu"),
@@ -286,7 +286,10 @@ impl Document {
         let motion = self.required(&w.motion, "motion", study, "motion: static")?;
         match motion.value {
             super::written::Motion::Static => Ok(super::valid::Motion::Static),
-            _ => Err(self.diagnostic(Spot::Node(motion.node), "not yet")),
+            _ => Err(self
+                .diagnostic(Spot::Node(motion.node), "the alignment study stands still")
+                .expected("`static`")
+                .example("motion: static")),
         }
     }
 }

@@ -38,7 +38,7 @@ pub enum Origin {
         /// What the base does.
         motion: Motion,
         /// The instrument with its true errors.
-        imu: Imu,
+        imu: Box<Imu>,
         /// Samples of the alignment.
         samples: u64,
     },

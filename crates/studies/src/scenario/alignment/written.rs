@@ -40,7 +40,7 @@ pub enum Method {
     /// A filter with zero velocity that needs no heading to begin with.
     AnyHeading(AnyHeading),
     /// An error-state Kalman filter with zero velocity, from the coarse attitude.
-    Filter(Filter),
+    Filter(Box<Filter>),
 }
 
 /// Two averaged vectors.
