@@ -36,7 +36,7 @@ fn every_config_runs_and_its_expect_holds() {
         let log = match &scenario.study {
             Study::Navigate(navigate) => Some(&navigate.log.file),
             Study::Allan(log) => Some(&log.file),
-            Study::Imu(_) | Study::Drift(_) => None,
+            Study::Imu(_) | Study::Drift(_) | Study::Simulate(_) => None,
         };
         if data.is_none() && log.is_some_and(|log| !file.with_file_name(log).is_file()) {
             recorded::skipped(&name.to_string());

@@ -4,6 +4,7 @@
 //! and checking it gives the valid form: SI, radians, every invariant. The only way in is [`Scenario::load`].
 
 mod check;
+mod check_motion;
 mod de;
 mod document;
 mod example;
@@ -22,11 +23,14 @@ mod temperature;
 #[cfg(test)]
 mod tests;
 mod valid;
+mod valid_motion;
 mod written;
+mod written_motion;
 
 pub use schema::json_schema;
 pub use sources::process_example;
 pub use valid::{
-    Align, Damping, Drift, Expect, Formats, Frame, Imu, ImuStudy, Initial, Mechanization, Motion, Navigate,
-    Output, RateTable, Scenario, Start, Statistic, Study, Temperature, Vertical,
+    Align, Damping, Drift, Expect, Formats, Frame, Imu, ImuStudy, Initial, Mechanization, Navigate, Output,
+    Scenario, Start, Statistic, Study, Temperature, Vertical,
 };
+pub use valid_motion::{Aid, Aiding, Motion, RateTable, Simulate, TrajectoryFile, Way};
