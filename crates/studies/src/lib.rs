@@ -10,6 +10,7 @@ pub mod figure;
 pub mod imu_study;
 pub mod log;
 pub mod navigate;
+mod navigator;
 mod progress;
 pub mod record;
 #[cfg(test)]
@@ -18,6 +19,7 @@ mod recorded;
 mod run;
 pub mod scenario;
 mod similar;
+pub mod simulate;
 pub mod trajectory;
 pub mod units;
 

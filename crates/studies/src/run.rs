@@ -1,7 +1,8 @@
 //! From a scenario to a record.
 
 use crate::{
-    Context, Error, Scenario, align, allan_study, drift, imu_study, navigate, record::Record, scenario::Study,
+    Context, Error, Scenario, align, allan_study, drift, imu_study, navigate, record::Record,
+    scenario::Study, simulate,
 };
 
 /// Runs the study of a scenario and judges its `expect`. A pure function of the scenario and, for
@@ -9,6 +10,7 @@ use crate::{
 pub fn run(scenario: &Scenario, context: &Context) -> Result<Record, Error> {
     let mut record = match &scenario.study {
         Study::Imu(study) => imu_study::run(scenario, study, context)?,
+        Study::Simulate(study) => simulate::run(scenario, study, context)?,
         Study::Drift(_) => drift::run(scenario, context)?,
         Study::Navigate(_) => navigate::run(scenario, context)?,
         Study::Align(_) => align::run(scenario, context)?,

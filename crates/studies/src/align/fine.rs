@@ -7,7 +7,7 @@ use schuler_strapdown::filter::{
     Accumulator, Filter, Measurement, Model, NavState, NavStates, Now, Position, Velocity,
     measurement::HORIZONTAL,
 };
-use schuler_strapdown::{Coning, ErrorDynamics, Increments, LocalLevel, Mechanization, Pva, Samples};
+use schuler_strapdown::{ErrorDynamics, Increments, LocalLevel, Mechanization, Pva, Samples};
 
 use super::adaptation::Adaptation;
 use super::method::Found;
@@ -76,7 +76,7 @@ impl Fine {
         self.running = Some(Running {
             place: *place,
             navigator: LocalLevel::new(&pva, place.gravity, place.vertical),
-            samples: Samples::new(Coning::Previous),
+            samples: Samples::new(place.coning),
             accumulator: Accumulator::new(self.filter.model(), dynamics, &pva),
             seen: (Truth::rates([0.0; 3], [0.0; 3]), 1.0),
         });

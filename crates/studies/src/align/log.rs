@@ -1,7 +1,7 @@
 //! Windows of a recorded log, aligned one by one, and navigation from the first of them on.
 
 use schuler_frames::Vec3;
-use schuler_strapdown::{Coning, Increments, LocalLevel, Mechanization, NavError, Pva, Samples};
+use schuler_strapdown::{Increments, LocalLevel, Mechanization, NavError, Pva, Samples};
 
 use super::method::{Worker, begin, measure};
 use super::place::Place;
@@ -27,7 +27,8 @@ pub fn run(
     let file = find(spec, context.data.as_deref(), &scenario.file)?;
     let position = study.start.position;
     let vertical = channel::vertical(&study.mechanization, position);
-    let place = Place { position, gravity: study.mechanization.gravity, vertical };
+    let coning = study.mechanization.coning;
+    let place = Place { position, gravity: study.mechanization.gravity, vertical, coning };
     let dt = 1.0 / spec.rate;
     let stride = scenario.output.every.map_or(1, |every| (every / dt).round().max(1.0) as u64);
     context.progress.begin("log", 1);
@@ -38,7 +39,7 @@ pub fn run(
     let mut failures: Vec<String> = Vec::new();
     let mut work = Work::new(study, window as f64 * dt);
     let mut navigators: Vec<Option<LocalLevel>> = Vec::new();
-    let mut free = Samples::new(Coning::One);
+    let mut free = Samples::new(coning);
     let mut k = 0u64;
     for sample in LogReader::open(spec, &file)? {
         let increments = sample?.increments;
@@ -126,7 +127,7 @@ impl Work {
             Some(Coarse::Value(_) | Coarse::Sigma(_)) | None => None,
         };
         let workers = study.methods.iter().map(|m| Worker::new(m, duration)).collect();
-        Work { workers, coarse, samples: Samples::new(Coning::Previous) }
+        Work { workers, coarse, samples: Samples::new(study.mechanization.coning) }
     }
 
     /// Sample `k` of the window.

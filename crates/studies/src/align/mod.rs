@@ -93,7 +93,7 @@ fn simulated(
         scene.dt,
         scene.c_tb(0),
         velocity,
-        motion.is_one_position(),
+        !matches!(motion, Motion::Positions(..)),
     );
     Ok(report::record(scenario, study, &scene, &limit, &first, &totals, end))
 }

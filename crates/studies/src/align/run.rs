@@ -2,7 +2,7 @@
 
 use schuler_frames::{B, Rot, T, Vec3, with_phi};
 use schuler_imu::{Imu, Stream, random::Draws};
-use schuler_strapdown::{Coning, Increments, LocalLevel, Mechanization, NavError, Pva, Samples};
+use schuler_strapdown::{Increments, LocalLevel, Mechanization, NavError, Pva, Samples};
 
 use super::method::{Worker, begin, measure};
 use super::place::Place;
@@ -33,7 +33,8 @@ const NOTHING: Vec3<T> = Vec3::new(f64::NAN, f64::NAN, f64::NAN);
 
 /// All methods of a study in one run: a pure function of the scene and `stream`.
 pub fn run(scene: &Scene, study: &AlignStudy, imu: &Instrument, stream: Stream) -> Result<Vec<Trace>, Error> {
-    let place = Place { position: scene.position, gravity: scene.gravity, vertical: scene.vertical };
+    let coning = study.mechanization.coning;
+    let place = Place { position: scene.position, gravity: scene.gravity, vertical: scene.vertical, coning };
     let dt = scene.dt;
     let mut sensors = Imu::new(&imu.spec, stream)?;
     let mut reference = Reference::new(&study.velocity, stream, dt);
@@ -42,7 +43,7 @@ pub fn run(scene: &Scene, study: &AlignStudy, imu: &Instrument, stream: Stream) 
         study.methods.iter().map(|method| Worker::new(method, scene.time(scene.samples))).collect();
     let mut traces: Vec<Trace> =
         workers.iter().map(|_| Trace { rows: Vec::with_capacity(scene.rows.len()), failure: None }).collect();
-    let mut samples = Samples::new(Coning::Previous);
+    let mut samples = Samples::new(coning);
     let mut navigators: Vec<Option<Navigator>> = Vec::new();
     let mut rows = scene.rows.iter().peekable();
 
@@ -127,7 +128,7 @@ impl Navigator {
         let start = Pva { c_tb, ..*truth };
         Some(Navigator {
             level: LocalLevel::new(&start, place.gravity, place.vertical),
-            samples: Samples::new(Coning::One),
+            samples: Samples::new(place.coning),
             known: worker.sensor_errors().map(Vec3::claim),
         })
     }

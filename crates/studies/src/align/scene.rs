@@ -52,7 +52,12 @@ impl Scene {
         let dt = 1.0 / study.rate();
         let (samples, navigate) = (study.samples(), study.navigate);
         let stride = scenario.output.every.map_or(1, |every| (every / dt).round().max(1.0) as u64);
-        let truth = trajectory::Truth::boxed(motion.trajectory(&study.start), gravity);
+        let impossible = |what: String| Diagnostic::new(&scenario.file, what).path("motion");
+        let trajectory = motion
+            .trajectory(&study.start, gravity, samples, dt)
+            .map_err(|fault| impossible(fault.to_string()))?
+            .ok_or_else(|| impossible("a motion that is no place on the Earth".into()))?;
+        let truth = trajectory::Truth::boxed(trajectory, gravity);
         let steady = matches!(motion, Motion::Static);
         let all = samples + navigate;
         if !steady && all > MOST_SAMPLES {

@@ -2,11 +2,11 @@
 
 use schuler_frames::{Vec3, with_phi, with_position_error};
 use schuler_imu::{Imu, Sample, Stream};
-use schuler_strapdown::{Increments, LocalLevel, NavError, Pva};
+use schuler_strapdown::{Increments, NavError, Pva};
 
 use super::case::Case;
 use super::scene::Scene;
-use crate::Error;
+use crate::{Error, navigator::Navigator};
 
 /// Navigation errors of `case` times `sign`, one for each row of the scene. `each` is handed the mean sensor
 /// errors of every sample (gyro, rad/s; accelerometer, m/s²).
@@ -17,7 +17,7 @@ pub fn run(
     seed: u64,
     mut each: impl FnMut(u64, &Sample),
 ) -> Result<Vec<NavError>, Error> {
-    let mut nav = LocalLevel::new(&start(scene, case, sign), scene.gravity, scene.vertical);
+    let mut nav = Navigator::new(&start(scene, case, sign), &scene.mechanization, scene.vertical, scene.dt);
     let mut imu = Imu::new(&case.spec.scaled(sign), Stream { seed, run: 0 })?;
     let motion = scene.motion();
     let steady = case.is_steady();
@@ -33,7 +33,7 @@ pub fn run(
                 increments = self::increments(&sample);
             }
             each(step, &sample);
-            nav.step(&increments, scene.dt);
+            nav.step(&increments);
             step += 1;
         }
         rows.push(NavError::between(&nav.pva(), &scene.truth));

@@ -6,7 +6,7 @@ use schuler_strapdown::static_base::Site;
 use schuler_strapdown::{Pva, Vertical};
 
 use crate::channel;
-use crate::scenario::Drift;
+use crate::scenario::{Drift, Mechanization};
 
 /// A base at rest on the Earth with an IMU on it.
 pub struct Scene {
@@ -16,6 +16,8 @@ pub struct Scene {
     pub site: Site,
     /// Gravity model of the navigator, which is that of the truth.
     pub gravity: Gravity,
+    /// How the navigator computes.
+    pub mechanization: Mechanization,
     /// The vertical channel of the navigator.
     pub vertical: Vertical,
     /// True angular rate omega_ib^b, rad/s.
@@ -51,6 +53,7 @@ impl Scene {
             truth: Pva { position, v_t: Vec3::ZERO, c_tb },
             site: Site::new(position, gravity),
             gravity,
+            mechanization: drift.mechanization,
             vertical,
             omega_b: (c_tb.inverse() * omega_ie_t(s, c)).as_vec3().as_array(),
             f_b: (c_tb.inverse() * -g_t).as_array(),

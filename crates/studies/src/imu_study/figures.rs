@@ -5,7 +5,7 @@ use crate::{
     Scenario,
     figure::{Axis, Figure, Panel, Quantity, Series, Style},
     record::Table,
-    scenario::{ImuStudy, Motion},
+    scenario::ImuStudy,
 };
 
 const INSTRUMENTS: [(&str, &str, Quantity); 2] = [
@@ -48,10 +48,6 @@ pub fn figures(
 
 /// Title, motion, rate and seed in a line.
 pub fn conditions(scenario: &Scenario, study: &ImuStudy) -> String {
-    let motion = match study.motion {
-        Motion::ZeroTruth => "zero truth",
-        Motion::Static => "at rest",
-        Motion::RateTable(_) => "on a rate table",
-    };
+    let motion = study.motion.words();
     format!("{}: {motion}, {} Hz, seed {}", scenario.title, study.imu.rate, scenario.seed)
 }

@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use schuler_imu::{Imu, Motion, Stream, TERMS, preset};
+use schuler_imu::{Imu, Motion, Stream, TERMS, Truth, preset};
 
 use super::{Profile, run};
 use crate::{
@@ -23,6 +23,14 @@ fn study(scenario: &Scenario) -> &ImuStudy {
 fn record(text: &str) -> Record {
     let scenario = load(text);
     run(&scenario, study(&scenario), &Context { data: None, progress: &Silent }).expect("runs")
+}
+
+/// Mean rate over an interval of 0.05 s.
+fn omega(truth: &Truth) -> [f64; 3] {
+    match truth.motion {
+        Motion::Increments { dtheta, .. } => dtheta.map(|x| x * 20.0),
+        Motion::Rates { omega, .. } => omega,
+    }
 }
 
 fn numbers<'a>(record: &'a Record, column: &str) -> &'a [f64] {
@@ -176,7 +184,7 @@ imu: { rate: 20 Hz, temperature: { table: [[0 s, 20 degC], [60 s, 80 degC]] } }
         let (mut angle, mut before) = ([0.0; 2], 0.0);
         for k in 400 * axis..400 * (axis + 1) {
             let truth = profile.truth(k as u64);
-            let Motion::Rates { omega, .. } = truth.motion else { panic!("rates") };
+            let omega = omega(&truth);
             let turn = omega[axis] - earth;
             angle[usize::from(k % 400 >= 200)] += turn * 0.05;
             let sign = if k % 400 < 200 { 1.0 } else { -1.0 };
@@ -188,8 +196,7 @@ imu: { rate: 20 Hz, temperature: { table: [[0 s, 20 degC], [60 s, 80 degC]] } }
             assert!((truth.omega_dot[axis] - expected).abs() < 1e-12, "{k}");
             if k % 200 != 0 {
                 let middle = 0.5 * (truth.omega_dot[axis] + before);
-                let last = profile.truth(k as u64 - 1);
-                let Motion::Rates { omega: last, .. } = last.motion else { panic!("rates") };
+                let last = self::omega(&profile.truth(k as u64 - 1));
                 assert!((omega[axis] - last[axis] - 0.05 * middle).abs() < 1e-12, "{k}");
             }
             before = truth.omega_dot[axis];

@@ -57,6 +57,7 @@ fn plan(navigate: &Navigate, every: Option<f64>) -> Plan {
     Plan {
         position,
         gravity,
+        mechanization: navigate.mechanization,
         vertical,
         dt: 1.0 / rate,
         window,

@@ -2,15 +2,16 @@
 
 use schuler_frames::{B, Geodetic, Gravity, I, Rate, Rot, T, Vec3};
 use schuler_strapdown::align::triad;
-use schuler_strapdown::{LocalLevel, Pva, Vertical};
+use schuler_strapdown::{Pva, Vertical};
 
-use crate::log::LogSample;
+use crate::{log::LogSample, navigator::Navigator, scenario::Mechanization};
 
 /// What is done, in samples of the log.
 pub struct Plan {
     /// Where the log was recorded.
     pub position: Geodetic,
     pub gravity: Gravity,
+    pub mechanization: Mechanization,
     pub vertical: Vertical,
     /// Sample interval, s.
     pub dt: f64,
@@ -53,8 +54,10 @@ pub struct Pass<'a> {
     plan: &'a Plan,
     pub whole: Mean,
     pub window: Mean,
-    navigator: Option<LocalLevel>,
+    navigator: Option<Navigator>,
     rows: Vec<(f64, Pva)>,
+    /// Samples in an update.
+    update: u64,
 }
 
 /// The aligned attitude and the rows navigated from it.
@@ -79,7 +82,14 @@ const FORCE_TOLERANCE: f64 = 0.1;
 
 impl<'a> Pass<'a> {
     pub fn new(plan: &'a Plan) -> Self {
-        Pass { plan, whole: Mean::default(), window: Mean::default(), navigator: None, rows: Vec::new() }
+        Pass {
+            plan,
+            whole: Mean::default(),
+            window: Mean::default(),
+            navigator: None,
+            rows: Vec::new(),
+            update: plan.mechanization.coning.samples() as u64,
+        }
     }
 
     /// The next sample of the log.
@@ -93,13 +103,13 @@ impl<'a> Pass<'a> {
             }
             if k == end {
                 let pva = Pva { position: plan.position, v_t: Vec3::ZERO, c_tb: self.attitude()? };
-                self.navigator = Some(LocalLevel::new(&pva, plan.gravity, plan.vertical));
+                self.navigator = Some(Navigator::new(&pva, &plan.mechanization, plan.vertical, plan.dt));
                 self.rows.push((k as f64 * plan.dt, pva));
             }
         } else if plan.last.is_none_or(|last| k <= last)
             && let Some(navigator) = &mut self.navigator
         {
-            navigator.step(&sample.increments, plan.dt);
+            navigator.step(&sample.increments);
             if (k - end).is_multiple_of(plan.stride) || plan.last == Some(k) {
                 self.rows.push((k as f64 * plan.dt, navigator.pva()));
             }
@@ -126,10 +136,12 @@ impl<'a> Pass<'a> {
         })
     }
 
-    /// The rows, if the log went beyond its window; the last sample is always one of them.
+    /// The rows, if the log went beyond its window; the last whole update is always one of them.
     pub fn finish(&mut self) -> Option<Outcome> {
         let navigator = self.navigator.as_ref()?;
         let last = self.plan.last.map_or(self.whole.count, |last| last.min(self.whole.count));
+        let end = self.plan.window[1];
+        let last = last - (last - end) % self.update;
         let t = last as f64 * self.plan.dt;
         if self.rows.last().is_some_and(|row| row.0 < t) {
             self.rows.push((t, navigator.pva()));

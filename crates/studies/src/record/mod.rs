@@ -42,13 +42,13 @@ pub struct Header {
     pub version: String,
     /// Title of the scenario.
     pub title: String,
-    /// `imu`, `drift` or `navigate`.
+    /// `imu`, `drift`, `navigate`, `allan` or `simulate`.
     pub study: String,
     /// BLAKE3 of the canonical form of the valid scenario, hexadecimal. Overrides are in it, comments are not.
     pub scenario_hash: String,
     /// Master seed of every random draw.
     pub seed: u64,
-    /// Gravity model, where the study navigates.
+    /// Gravity model, where the study navigates or simulates.
     pub gravity: Option<String>,
     /// Vertical channel, where the study navigates.
     pub vertical: Option<String>,
@@ -84,7 +84,7 @@ impl Header {
             study: scenario.study.name().into(),
             scenario_hash: scenario.hash.clone(),
             seed: scenario.seed,
-            gravity: mechanization.map(|m| format!("{:?}", m.gravity).to_lowercase()),
+            gravity: scenario.gravity().map(|gravity| format!("{gravity:?}").to_lowercase()),
             vertical: mechanization.map(|m| m.vertical.name().into()),
             command: String::new(),
         }

@@ -182,6 +182,35 @@ pub mod columns {
         "pitch_rad",
         "yaw_rad",
     ];
+    /// `truth.csv`: state at `t_s`, instantaneous rate against inertial space and specific force, in body axes.
+    pub const TRUTH: [&str; 16] = [
+        "t_s",
+        "lat_rad",
+        "lon_rad",
+        "h_m",
+        "v_n_mps",
+        "v_e_mps",
+        "v_d_mps",
+        "roll_rad",
+        "pitch_rad",
+        "yaw_rad",
+        "omega_x_radps",
+        "omega_y_radps",
+        "omega_z_radps",
+        "f_x_mps2",
+        "f_y_mps2",
+        "f_z_mps2",
+    ];
+    /// `position.csv`: measured position of an antenna, and the standard deviation of its noise.
+    pub const POSITION_AID: [&str; 7] =
+        ["t_s", "lat_rad", "lon_rad", "h_m", "sigma_n_m", "sigma_e_m", "sigma_d_m"];
+    /// `velocity.csv`: measured velocity of an antenna.
+    pub const VELOCITY_AID: [&str; 7] =
+        ["t_s", "v_n_mps", "v_e_mps", "v_d_mps", "sigma_n_mps", "sigma_e_mps", "sigma_d_mps"];
+    /// `height.csv`: measured height.
+    pub const HEIGHT_AID: [&str; 3] = ["t_s", "h_m", "sigma_d_m"];
+    /// `heading.csv`: measured heading.
+    pub const HEADING_AID: [&str; 3] = ["t_s", "yaw_rad", "sigma_rad"];
     /// `imu.csv` with increments over the interval that ends at `t_s`.
     pub const INCREMENTS: [&str; 7] =
         ["t_s", "dtheta_x_rad", "dtheta_y_rad", "dtheta_z_rad", "dv_x_mps", "dv_y_mps", "dv_z_mps"];

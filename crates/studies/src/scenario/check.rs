@@ -2,6 +2,7 @@
 
 use schuler_frames::Gravity;
 use schuler_imu::Unit;
+use schuler_strapdown::Coning;
 
 use super::{
     de::At,
@@ -13,6 +14,7 @@ use super::{
         Vertical,
     },
     written::{self, StudyKind},
+    written_motion::Motion,
 };
 use crate::{Diagnostic, log::Content};
 
@@ -33,6 +35,7 @@ impl Document {
             StudyKind::Drift => Study::Drift(self.drift(w)?),
             StudyKind::Navigate => Study::Navigate(self.navigate(w)?),
             StudyKind::Align => Study::Align(self.align_study(w)?),
+            StudyKind::Simulate => Study::Simulate(Box::new(self.simulate(w)?)),
             StudyKind::Allan => Study::Allan(self.log(self.required_log(w, "allan")?)?),
         };
         let rate = match &study {
@@ -41,8 +44,10 @@ impl Document {
             Study::Navigate(s) => s.log.rate,
             Study::Allan(log) => log.rate,
             Study::Align(s) => s.rate(),
+            Study::Simulate(s) => s.imu.rate,
         };
         let output = self.output(w.output.as_ref(), rate)?;
+        self.whole_updates(w, &study, &output, rate)?;
         let expect = w.expect.iter().map(|e| self.expect(e, w.study.value)).collect::<Result<_, _>>()?;
         let seed = w.seed.as_ref().map_or(1, |s| s.value);
         let file = self.file().into();
@@ -58,10 +63,12 @@ impl Document {
         fn node<T>(key: &Option<At<T>>) -> Option<NodeId> {
             key.as_ref().map(|k| k.node)
         }
-        use StudyKind::{Align, Allan, Drift, Imu, Navigate};
-        let keys: [(Option<NodeId>, &[StudyKind]); 8] = [
-            (node(&w.motion), &[Imu, Drift, Align]),
-            (node(&w.imu), &[Imu, Drift, Align]),
+        use StudyKind::{Align, Allan, Drift, Imu, Navigate, Simulate};
+        let keys: [(Option<NodeId>, &[StudyKind]); 10] = [
+            (node(&w.motion), &[Imu, Drift, Simulate, Align]),
+            (node(&w.imu), &[Imu, Drift, Simulate, Align]),
+            (node(&w.gravity), &[Simulate]),
+            (node(&w.aiding), &[Simulate]),
             (node(&w.initial_errors), &[Drift]),
             (node(&w.mechanization), &[Drift, Navigate, Align]),
             (node(&w.log), &[Navigate, Allan, Align]),
@@ -96,7 +103,7 @@ impl Document {
 
     fn drift(&self, w: &written::Scenario) -> Result<Drift, Diagnostic> {
         let motion = self.required(&w.motion, "motion", "drift", "motion: static")?;
-        if !matches!(motion.value, written::Motion::Static) {
+        if !matches!(motion.value, Motion::Static) {
             return Err(self
                 .diagnostic(Spot::Node(motion.node), "the drift study stands still")
                 .expected("`static`")
@@ -185,7 +192,26 @@ impl Document {
     ) -> Result<Mechanization, Diagnostic> {
         let example = "mechanization: { frame: t, vertical: held, gravity: somigliana }";
         let w = &self.required(&w.mechanization, "mechanization", study, example)?.value;
-        let written::Frame::T = w.frame.value;
+        let frame = match w.frame.value {
+            written::Frame::T => Frame::T,
+            written::Frame::Wander => Frame::Wander,
+            written::Frame::E => Frame::E,
+            written::Frame::I => Frame::I,
+            written::Frame::Euler => Frame::Euler,
+        };
+        let coning = match w.coning.as_ref().map(|coning| coning.value) {
+            None | Some(written::Coning::One) => Coning::One,
+            Some(written::Coning::Previous) => Coning::Previous,
+            Some(written::Coning::Two) => Coning::Two,
+            Some(written::Coning::Three) => Coning::Three,
+            Some(written::Coning::Four) => Coning::Four,
+        };
+        if let (Frame::Euler, Some(written)) = (frame, w.coning.as_ref().filter(|_| coning != Coning::One)) {
+            return Err(self
+                .diagnostic(Spot::Node(written.node), "the first-order update takes increments as they are")
+                .expected("`one`")
+                .help("take it out, or choose another frame"));
+        }
         let vertical = match &w.vertical.value {
             written::Vertical::Held => Vertical::Held,
             written::Vertical::Free => Vertical::Free,
@@ -207,7 +233,7 @@ impl Document {
             written::Gravity::Normal => Gravity::Normal,
             written::Gravity::Somigliana => Gravity::Somigliana,
         };
-        Ok(Mechanization { frame: Frame::T, vertical, gravity })
+        Ok(Mechanization { frame, vertical, gravity, coning })
     }
 
     fn output(&self, output: Option<&At<written::Output>>, rate: f64) -> Result<Output, Diagnostic> {
@@ -225,6 +251,44 @@ impl Document {
             }
         });
         Ok(Output { every, formats, imu: w.imu.map_or(Content::Rates, content) })
+    }
+
+    /// Rows are states after whole updates.
+    fn whole_updates(
+        &self,
+        w: &written::Scenario,
+        study: &Study,
+        output: &Output,
+        rate: f64,
+    ) -> Result<(), Diagnostic> {
+        let (mechanization, samples) = match study {
+            Study::Drift(drift) => (&drift.mechanization, Some(drift.samples)),
+            Study::Navigate(navigate) => {
+                let last = navigate.duration.map(|duration| (duration * rate).round() as u64);
+                (&navigate.mechanization, last)
+            }
+            _ => return Ok(()),
+        };
+        let update = mechanization.coning.samples() as u64;
+        let every = output.every.map_or(1, |every| (every * rate).round() as u64);
+        let node = |key: Option<NodeId>| Spot::Node(key.unwrap_or(self.root()));
+        let row = w.output.as_ref().and_then(|o| o.value.every.as_ref()).map(|every| every.node);
+        let end = w.duration.as_ref().map(|duration| duration.node);
+        for (samples, spot, what) in [
+            (Some(every), node(row.or(w.output.as_ref().map(|o| o.node))), "the interval of the rows"),
+            (samples, node(end), "the duration"),
+        ] {
+            if samples.is_some_and(|samples| !samples.is_multiple_of(update)) {
+                return Err(self
+                    .diagnostic(spot, format!("{what} is not a whole number of updates"))
+                    .expected(format!(
+                        "a multiple of {} s: an update has {update} samples",
+                        update as f64 / rate
+                    ))
+                    .example(format!("every: {} s", update as f64 / rate * 100.0)));
+            }
+        }
+        Ok(())
     }
 
     /// An interval of whole samples.

@@ -53,6 +53,14 @@ impl Document {
                 &columns::ALLAN,
             ]
             .concat(),
+            StudyKind::Simulate => [
+                &columns::TRUTH[..],
+                &columns::RATES[1..],
+                &columns::INCREMENTS,
+                &columns::POSITION_AID[4..],
+                &columns::VELOCITY_AID[4..],
+            ]
+            .concat(),
             StudyKind::Drift => columns::ERRORS.to_vec(),
             // Its parameters are estimates with intervals of their own; the deviations are facts of the log.
             StudyKind::Allan => vec!["deviation_radps", "deviation_mps2"],

@@ -1,13 +1,13 @@
 //! `study: imu`: its motion and what is drawn of it.
 
-use schuler_imu::Unit;
+use schuler_frames::Gravity;
 
 use super::{
     de::At,
     document::{Document, Spot},
-    quantity::Range,
-    valid::{ImuStudy, Motion, RateTable, Temperature},
-    written,
+    valid::{ImuStudy, Temperature},
+    valid_motion::Motion,
+    written, written_motion,
 };
 use crate::Diagnostic;
 
@@ -17,58 +17,39 @@ const MAX_ALLAN: u64 = 20_000_000;
 impl Document {
     pub(super) fn imu_study(&self, w: &written::Scenario) -> Result<ImuStudy, Diagnostic> {
         let motion = self.required(&w.motion, "motion", "imu", "motion: zero_truth")?;
-        let needs_start = !matches!(motion.value, written::Motion::ZeroTruth);
+        let needs_start = !matches!(motion.value, written_motion::Motion::ZeroTruth);
         let start = match &w.start {
             None if needs_start => Some(self.required_start(w, "imu")?),
             start => start.as_ref().map(|s| self.start(s)).transpose()?,
         };
         let imu = self.imu(self.required(&w.imu, "imu", "imu", "imu: { rate: 100 Hz }")?)?;
         let samples = self.samples(w, "imu", imu.rate)?;
-        let motion = match &motion.value {
-            written::Motion::ZeroTruth => Motion::ZeroTruth,
-            written::Motion::Static => Motion::Static,
-            written::Motion::RateTable(table) => {
-                Motion::RateTable(self.rate_table(table, samples as f64 / imu.rate)?)
+        let duration = samples as f64 / imu.rate;
+        let written = motion;
+        let motion = self.motion(written, start.as_ref(), Some(duration))?;
+        if motion.file().is_some() {
+            return Err(self
+                .diagnostic(Spot::Node(written.node), "the study `imu` reads no trajectory")
+                .help("choose another motion, or `study: simulate`"));
+        }
+        if let Some(start) = &start {
+            let trajectory = motion
+                .trajectory(start, Gravity::Somigliana, samples, 1.0 / imu.rate)
+                .map_err(|fault| self.impossible(written, &fault))?;
+            let end = trajectory.and_then(|trajectory| trajectory.duration()).unwrap_or(f64::INFINITY);
+            if duration > end * (1.0 + 1e-9) {
+                let node = w.duration.as_ref().map_or(written.node, |d| d.node);
+                return Err(self
+                    .diagnostic(Spot::Node(node), "the motion ends before the duration")
+                    .expected(format!("{end:.3} s or less"))
+                    .found(format!("{duration} s")));
             }
-        };
+        }
         let allan = w.output.as_ref().and_then(|output| output.value.allan.as_ref()).filter(|a| a.value);
         if let Some(allan) = allan {
             self.unchanging(allan, &motion, imu.temperature.as_ref(), samples)?;
         }
         Ok(ImuStudy { motion, start, samples, imu, allan: allan.is_some() })
-    }
-
-    fn rate_table(&self, w: &written::RateTable, duration: f64) -> Result<RateTable, Diagnostic> {
-        let rate = self.quantity(&w.rate, Unit::RATE, Range::Positive)?;
-        let acceleration = match &w.acceleration {
-            None => f64::INFINITY,
-            Some(written) => {
-                let unit = Unit::RATE.over(Unit::SECOND);
-                let acceleration = self.quantity(written, unit, Range::Positive)?;
-                let least = 12.0 * rate / duration;
-                if acceleration < least {
-                    return Err(self
-                        .diagnostic(Spot::Node(written.node), "the table does not reach its rate")
-                        .expected(format!(
-                            "{:.4} deg/s^2 or more: it starts and stops in a sixth of the duration",
-                            least.to_degrees()
-                        ))
-                        .found(format!("{:.4} deg/s^2", acceleration.to_degrees()))
-                        .example("acceleration: 60 deg/s^2"));
-                }
-                acceleration
-            }
-        };
-        let vibration = match &w.vibration {
-            None => [0.0; 3],
-            Some(vibration) => self.each_axis(vibration, Unit::FORCE, Range::NonNegative)?,
-        };
-        Ok(RateTable {
-            rate,
-            tilt: self.quantity(&w.tilt, Unit::RADIAN, Range::Any)?,
-            acceleration,
-            vibration,
-        })
     }
 
     /// Theory has Allan deviations of errors under an input that stays as it is.
@@ -80,7 +61,7 @@ impl Document {
         samples: u64,
     ) -> Result<(), Diagnostic> {
         let fault = |problem: &str| self.diagnostic(Spot::Node(allan.node), problem);
-        if matches!(motion, Motion::RateTable(_)) {
+        if !matches!(motion, Motion::ZeroTruth | Motion::Static) {
             return Err(fault("no Allan deviation of a motion")
                 .expected("an instrument that stands still")
                 .example("motion: static"));

@@ -5,6 +5,7 @@
 
 mod alignment;
 mod check;
+mod check_motion;
 mod de;
 mod document;
 mod example;
@@ -23,7 +24,9 @@ mod temperature;
 #[cfg(test)]
 mod tests;
 mod valid;
+mod valid_motion;
 mod written;
+mod written_motion;
 
 pub use alignment::valid::{
     AlignStudy, Coarse, FilterSettings, Knock, Method, MethodKind, Origin, Strategy, StrategyKind, Velocity,
@@ -31,6 +34,7 @@ pub use alignment::valid::{
 pub use schema::json_schema;
 pub use sources::process_example;
 pub use valid::{
-    Align, Damping, Drift, Expect, Formats, Frame, Imu, ImuStudy, Initial, Mechanization, Motion, Navigate,
-    Output, RateTable, Scenario, Start, Statistic, Study, Temperature, Vertical,
+    Align, Damping, Drift, Expect, Formats, Frame, Imu, ImuStudy, Initial, Mechanization, Navigate, Output,
+    Scenario, Start, Statistic, Study, Temperature, Vertical,
 };
+pub use valid_motion::{Aid, Aiding, Motion, RateTable, Simulate, TrajectoryFile, Way};

@@ -1,5 +1,7 @@
 //! Leaves of the written form that have their own look in YAML, and the JSON Schema of the whole.
 
+use std::marker::PhantomData;
+
 use schemars::{JsonSchema, Schema, SchemaGenerator, generate::SchemaSettings, json_schema};
 use schuler_imu::{Instrument, PROCESSES, ProcessKind, TERMS, Term};
 use serde::{Deserialize, de};
@@ -101,6 +103,30 @@ impl<'de> Deserialize<'de> for OneOrMore {
     }
 }
 
+/// One map, or a list of them.
+#[derive(Debug)]
+pub struct OneOrList<T>(pub Vec<T>);
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for OneOrList<T> {
+    fn deserialize<D: de::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct OneOrListVisitor<T>(PhantomData<T>);
+        impl<'de, T: Deserialize<'de>> de::Visitor<'de> for OneOrListVisitor<T> {
+            type Value = OneOrList<T>;
+            fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+                f.write_str("a map of keys, or a list of them")
+            }
+            fn visit_map<A: de::MapAccess<'de>>(self, access: A) -> Result<OneOrList<T>, A::Error> {
+                let one = Deserialize::deserialize(de::value::MapAccessDeserializer::new(access))?;
+                Ok(OneOrList(vec![one]))
+            }
+            fn visit_seq<A: de::SeqAccess<'de>>(self, access: A) -> Result<OneOrList<T>, A::Error> {
+                Deserialize::deserialize(de::value::SeqAccessDeserializer::new(access)).map(OneOrList)
+            }
+        }
+        deserializer.deserialize_any(OneOrListVisitor(PhantomData))
+    }
+}
+
 /// Error sources of an instrument, each `- term: { process: { parameter: … } }`, read against the registries.
 #[derive(Debug, Default, Deserialize)]
 #[serde(transparent)]
@@ -151,6 +177,19 @@ impl JsonSchema for OneOrMore {
         let one = generator.subschema_for::<Scalar>();
         json_schema!({
             "description": "One quantity for all axes, or a list with one each.",
+            "anyOf": [one, { "type": "array", "items": one }],
+        })
+    }
+}
+
+impl<T: JsonSchema> JsonSchema for OneOrList<T> {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        format!("{}OrList", T::schema_name()).into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let one = generator.subschema_for::<T>();
+        json_schema!({
+            "description": "One, or a list.",
             "anyOf": [one, { "type": "array", "items": one }],
         })
     }

@@ -74,6 +74,71 @@ const IMU_FAULTS: &[(&str, &str)] = &[
     ("30 deg/s^2", "3 deg/s^2"),
     ("formats: [csv]", "formats: [csv], allan: true"),
     ("study: imu", "study: drift"),
+    ("duration: 60 s", "gravity: normal\nduration: 60 s"),
+    (RATE_TABLE, "sway: { rol: { amplitude: 2 deg, period: 8 s } }"),
+    (RATE_TABLE, "sway: { roll: { amplitude: 2 deg } }"),
+    (RATE_TABLE, "sway: { roll: [{ amplitude: 2 m, period: 8 s }] }"),
+    (RATE_TABLE, "sway: { roll: 2 deg }"),
+    (RATE_TABLE, "positions: { rate: 10 deg/s, poses: [] }"),
+    (RATE_TABLE, "positions: { rate: 10 deg/s, poses: [{ yaw: 0 deg }] }"),
+    (RATE_TABLE, "positions: { rate: 10 deg/s, poses: [{ yaw: 0 deg, dwell: 10 s }] }"),
+    (RATE_TABLE, "coning: { half_angle: 1 deg, frequency: 0 Hz }"),
+    (RATE_TABLE, "segments: [{ stand: { duration: 5 s } }, { turn: { angle: 90 deg, radius: 100 m } }]"),
+    (RATE_TABLE, "segments: [{ stand: { duration: 5 s } }, { turn: { angle: 90 deg } }]"),
+    (RATE_TABLE, "segments: [{ strait: { duration: 5 s } }]"),
+    (RATE_TABLE, "segments: [{ accelerate: { to: 13 km/s, duration: 5 s } }]"),
+    (
+        RATE_TABLE,
+        "segments: [{ accelerate: { to: 9 m/s, duration: 5 s } }, { climb: { height: 9 m, angle: 90 deg } }]",
+    ),
+    (RATE_TABLE, "segments: [{ accelerate: { to: 9 m/s, duration: 5 s } }, { stand: { duration: 5 s } }]"),
+    (RATE_TABLE, "great_circle: { speed: 250 m/s }"),
+    (RATE_TABLE, "great_circle: { speed: 250 m/s, to: [95 deg, 0 deg] }"),
+    (RATE_TABLE, "shaken: { motion: zero_truth }"),
+    (
+        RATE_TABLE,
+        "waypoints: { points: [{ lat: 45.1 deg, lon: 0 deg, time: 90 s }, { lat: 45.2 deg, lon: 0 deg, time: 80 s }] }",
+    ),
+    (RATE_TABLE, "waypoints: { points: [{ lat: 45.1 deg, lon: 0 deg, time: 90 s, speed: 5 m/s }] }"),
+    (RATE_TABLE, "waypoints: { points: [{ lat: 46 deg, lon: 0 deg, time: 1 s }] }"),
+    (RATE_TABLE, "file: { file: a.csv, knots: 0 s }"),
+    (RATE_TABLE, "file: { file: a.csv, knots: 1 s }"),
+    ("h: 0 m }", "h: 0 m }, velocity: { n: 1 m/s, e: 0 m/s, d: 0 m/s }"),
+];
+
+const RATE_TABLE: &str = "rate_table: { rate: 30 deg/s, tilt: 30 deg, acceleration: 30 deg/s^2 }";
+
+const SIMULATE: &str = "\
+schuler: 1
+study: simulate
+title: A test
+start:
+  position: { lat: 45 deg, lon: 0 deg, h: 0 m }
+  velocity: { n: 0 m/s, e: 100 m/s, d: 0 m/s }
+motion: { segments: [{ straight: { duration: 60 s } }] }
+gravity: normal
+imu: { rate: 100 Hz }
+aiding:
+  position: { rate: 1 Hz, sigma: 1 m, outages: [[10 s, 20 s]] }
+  heading: { rate: 1 Hz, sigma: 1 deg }
+";
+
+/// Changes of the third scenario, each of which makes it wrong.
+const SIMULATE_FAULTS: &[(&str, &str)] = &[
+    ("gravity: normal\n", ""),
+    ("gravity: normal", "gravity: normal\nduration: 61 s"),
+    ("gravity: normal", "gravity: normal\nmechanization: { frame: t, vertical: free, gravity: normal }"),
+    ("velocity: {", "attitude: { roll: 0 deg, pitch: 0 deg, yaw: 45 deg }\n  velocity: {"),
+    ("{ segments: [{ straight: { duration: 60 s } }] }", "zero_truth"),
+    ("{ segments: [{ straight: { duration: 60 s } }] }", "static"),
+    ("{ segments: [{ straight: { duration: 60 s } }] }", "constant_velocity"),
+    ("duration: 60 s", "duration: 60 s, distance: 5 m"),
+    ("e: 100 m/s", "e: 100 km/s"),
+    ("rate: 1 Hz, sigma: 1 m", "rate: 3 Hz, sigma: 1 m"),
+    ("sigma: 1 m", "sigma: 1 m/s"),
+    ("[10 s, 20 s]", "[20 s, 10 s]"),
+    ("sigma: 1 deg", "sigma: 1 deg, lever_arm: [1 m, 0 m, 0 m]"),
+    ("heading", "speed"),
 ];
 
 /// Changes of the first scenario, each of which makes it wrong.
@@ -110,6 +175,16 @@ const FAULTS: &[(&str, &str)] = &[
     ("mechanization", "log: { }\nmechanization"),
     ("mechanization", "initial_errors: { tilt: [1 deg] }\nmechanization"),
     ("gravity: somigliana", "gravity: egm2008"),
+    ("frame: t", "frame: ned"),
+    ("gravity: somigliana", "gravity: somigliana, coning: five"),
+    (
+        "frame: t, vertical: held, gravity: somigliana",
+        "frame: euler, vertical: held, gravity: somigliana, coning: two",
+    ),
+    (
+        "gravity: somigliana }\noutput: { every: 60 s",
+        "gravity: somigliana, coning: four }\noutput: { every: 0.05 s",
+    ),
     ("schuler: 1", "schuler: 2"),
     ("title: A test", "title: A test\nduratoin: 1 h"),
     ("h: 0 m", "h: 200000 km"),
@@ -147,7 +222,9 @@ fn load(text: &str, overrides: &[&str]) -> Result<Scenario, Error> {
 fn messages() {
     let mut found = String::new();
     let drift = FAULTS.iter().map(|fault| (DRIFT, fault));
-    for (base, (from, to)) in drift.chain(IMU_FAULTS.iter().map(|fault| (IMU, fault))) {
+    let imu = IMU_FAULTS.iter().map(|fault| (IMU, fault));
+    let simulate = SIMULATE_FAULTS.iter().map(|fault| (SIMULATE, fault));
+    for (base, (from, to)) in drift.chain(imu).chain(simulate) {
         let text = base.replace(from, to);
         assert_ne!(text, base, "{from} is not in the scenario");
         let error = load(&text, &[]).expect_err(to);
@@ -239,7 +316,7 @@ fn earth_fixed_positions() {
 #[test]
 fn every_key_has_an_example() {
     let schema: serde_json::Value = serde_json::from_str(&json_schema()).expect("JSON");
-    let example = include_str!("example.yaml");
+    let example = [include_str!("example.yaml"), include_str!("example_motion.yaml")].concat();
     let mut keys: Vec<&String> = Vec::new();
     let root = schema["properties"].as_object().expect("keys");
     keys.extend(root.keys());

@@ -5,8 +5,10 @@ use std::path::PathBuf;
 use hifitime::Epoch;
 use schuler_frames::{Euler, Geodetic, Gravity};
 use schuler_imu::Spec;
+use schuler_strapdown::Coning;
 
 use super::alignment::valid::AlignStudy;
+use super::valid_motion::{Motion, Simulate};
 use crate::log::{Content, LogSpec};
 
 /// A scenario that can be run.
@@ -41,16 +43,28 @@ pub enum Study {
     Allan(LogSpec),
     /// Methods of alignment side by side.
     Align(AlignStudy),
+    /// Truth, logs and measurements of a motion.
+    Simulate(Box<Simulate>),
 }
 
 impl Scenario {
     /// How the study navigates, if it does.
     pub fn mechanization(&self) -> Option<&Mechanization> {
         match &self.study {
-            Study::Imu(_) | Study::Allan(_) => None,
+            Study::Imu(_) | Study::Allan(_) | Study::Simulate(_) => None,
             Study::Drift(drift) => Some(&drift.mechanization),
             Study::Align(align) => Some(&align.mechanization),
             Study::Navigate(navigate) => Some(&navigate.mechanization),
+        }
+    }
+}
+
+impl Scenario {
+    /// The gravity model, if there is one.
+    pub fn gravity(&self) -> Option<Gravity> {
+        match &self.study {
+            Study::Simulate(simulate) => Some(simulate.gravity),
+            _ => self.mechanization().map(|mechanization| mechanization.gravity),
         }
     }
 }
@@ -64,6 +78,7 @@ impl Study {
             Study::Navigate(_) => "navigate",
             Study::Allan(_) => "allan",
             Study::Align(_) => "align",
+            Study::Simulate(_) => "simulate",
         }
     }
 }
@@ -137,32 +152,6 @@ pub struct Start {
     pub velocity: [f64; 3],
 }
 
-/// What the instrument goes through.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Motion {
-    /// Zero angular velocity and zero specific force: no place on the Earth, but what an error model
-    /// shows when it is alone.
-    ZeroTruth,
-    /// At rest on the Earth.
-    Static,
-    /// On a rate table that tilts and turns it.
-    RateTable(RateTable),
-}
-
-/// A rate table: for each axis x, y, z the instrument is turned about it by `angle` forward and back at
-/// `rate`, with the turning axis tilted from the vertical by `tilt`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RateTable {
-    /// Rate of the table, rad/s, positive.
-    pub rate: f64,
-    /// Tilt of the table axis from the vertical, rad.
-    pub tilt: f64,
-    /// Angular acceleration of its starts and stops, rad/s², positive; infinite where they take no time.
-    pub acceleration: f64,
-    /// Root mean square of its vibration along x, y, z of the body, m/s².
-    pub vibration: [f64; 3],
-}
-
 /// An instrument: three gyros and three accelerometers along x, y, z of the body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Imu {
@@ -233,6 +222,8 @@ pub struct Mechanization {
     pub vertical: Vertical,
     /// Gravity model.
     pub gravity: Gravity,
+    /// How updates are made of samples.
+    pub coning: Coning,
 }
 
 /// Frame of the computation.
@@ -241,6 +232,14 @@ pub struct Mechanization {
 pub enum Frame {
     /// Local level, north-east-down.
     T,
+    /// Local level without a north: wander azimuth.
+    Wander,
+    /// Earth-fixed.
+    E,
+    /// Inertial.
+    I,
+    /// Local level by the classical first-order update.
+    Euler,
 }
 
 /// The vertical channel.

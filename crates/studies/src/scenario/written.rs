@@ -7,6 +7,7 @@ use super::{
     alignment::written::Alignment,
     de::At,
     schema::{Scalar, Sources, Title},
+    written_motion::{Aiding, Motion},
 };
 
 /// A quantity with its unit, `0.01 deg/h`; a number alone where it has no dimension.
@@ -32,6 +33,10 @@ pub struct Scenario {
     pub imu: Option<At<Imu>>,
     /// Errors of the computed state at t = 0, computed minus true.
     pub initial_errors: Option<At<InitialErrors>>,
+    /// Field in which the motion happens; where the study navigates, `mechanization` has it.
+    pub gravity: Option<At<Gravity>>,
+    /// Measurements beside the IMU.
+    pub aiding: Option<At<Aiding>>,
     /// How it navigates.
     pub mechanization: Option<At<Mechanization>>,
     /// The recorded log.
@@ -63,6 +68,8 @@ pub enum StudyKind {
     Allan,
     /// Methods of alignment side by side, beside their analytic limits.
     Align,
+    /// A motion: its truth, ideal and corrupted IMU log, and aiding measurements.
+    Simulate,
 }
 
 /// Place, time, attitude and velocity at t = 0.
@@ -119,32 +126,6 @@ pub struct Velocity {
     pub e: Quantity,
     /// Down.
     pub d: Quantity,
-}
-
-/// What the instrument goes through.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Motion {
-    /// Zero angular velocity and zero specific force (no place on the Earth has that).
-    ZeroTruth,
-    /// At rest on the Earth.
-    Static,
-    /// On a tilted rate table that turns each axis both ways.
-    RateTable(RateTable),
-}
-
-/// The duration is cut in six: about x forward and back, about y forward and back, about z forward and back.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct RateTable {
-    /// Rate of the table, `30 deg/s`.
-    pub rate: Quantity,
-    /// Tilt of its axis from the vertical, towards north.
-    pub tilt: Quantity,
-    /// Angular acceleration with which it starts and stops, `60 deg/s^2`; at once when absent.
-    pub acceleration: Option<Quantity>,
-    /// Root mean square of its vibration, one for all axes of the body or three; none when absent.
-    pub vibration: Option<At<OneOrThree>>,
 }
 
 /// Three gyros and three accelerometers along x, y, z of the body.
@@ -309,20 +290,46 @@ pub struct InitialErrors {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Mechanization {
-    /// Frame of the computation: `t`, local level north-east-down.
+    /// Frame of the computation: `t`, `wander`, `e`, `i`, or `euler`.
     pub frame: At<Frame>,
     /// The vertical channel: `held`, `free`, or `{ damped: { order: 3, tau: 100 s } }`.
     pub vertical: At<Vertical>,
     /// Gravity model.
     pub gravity: At<Gravity>,
+    /// How updates are made of samples, against coning and sculling; `one` when absent.
+    pub coning: Option<At<Coning>>,
+}
+
+/// How many samples make an update.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Coning {
+    /// Each sample is an update.
+    One,
+    /// Each sample is an update that knows the sample before.
+    Previous,
+    /// Two samples.
+    Two,
+    /// Three samples.
+    Three,
+    /// Four samples.
+    Four,
 }
 
 /// Frame of the computation.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Frame {
-    /// Local level, north-east-down.
+    /// Local level, north-east-down; not over the poles.
     T,
+    /// Local level that does not follow north (wander azimuth): over the poles too.
+    Wander,
+    /// Earth-fixed.
+    E,
+    /// Inertial.
+    I,
+    /// Local level by the classical first-order update, to show what it costs.
+    Euler,
 }
 
 /// The vertical channel.

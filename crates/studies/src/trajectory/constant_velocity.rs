@@ -10,28 +10,23 @@ pub struct ConstantVelocity {
     track: Track,
     v_t: Vec3<T>,
     stance: Stance,
-    duration: f64,
 }
 
 impl ConstantVelocity {
-    /// From `position` with `attitude` at `v_t` (m/s) for `duration` (s).
+    /// From `position` with `attitude` at `v_t` (m/s), for `duration` (s) or a little longer.
     ///
     /// # Errors
     /// Faster than anything, or it comes to a pole.
     pub fn new(position: Geodetic, attitude: Euler, v_t: Vec3<T>, duration: f64) -> Result<Self, Impossible> {
         Impossible::speed(v_t.norm())?;
         let track = Track::new(position, &[0.0, duration], |_| v_t)?;
-        Ok(ConstantVelocity { track, v_t, stance: Stance::still(Rot::from_euler(attitude)), duration })
+        Ok(ConstantVelocity { track, v_t, stance: Stance::still(Rot::from_euler(attitude)) })
     }
 }
 
 impl Trajectory for ConstantVelocity {
     fn at(&self, t: f64) -> Kinematics {
         Kinematics::new(Place::from_velocity(self.track.at(t), self.v_t, Vec3::ZERO), self.stance)
-    }
-
-    fn duration(&self) -> Option<f64> {
-        Some(self.duration)
     }
 
     fn fastest(&self) -> f64 {

@@ -30,15 +30,19 @@ mod positions;
 mod quadrature;
 mod rate_table;
 mod rates;
+mod recorded;
+mod route;
 mod segments;
 mod shaken;
 mod smooth;
+mod spline;
 mod still;
 mod sway;
 #[cfg(test)]
 mod tests;
 mod track;
 mod truth;
+mod waypoints;
 
 pub use coning::{Coning, Sculling};
 pub use constant_velocity::ConstantVelocity;
@@ -49,12 +53,14 @@ pub use kinematics::{Kinematics, Place, Stance};
 pub use positions::{Pose, Positions};
 pub use rate_table::RateTable;
 pub use rates::increments_of_rates;
+pub use recorded::{Recorded, Residual, Row};
 pub use segments::{Course, Segment, Segments, Sharpness, Turn};
 pub use shaken::Shaken;
 pub use still::Still;
 pub use sway::{Sine, Sway, SwayAxes};
 pub use track::Track;
 pub use truth::{Moment, Truth};
+pub use waypoints::{Passage, Waypoint, Waypoints};
 
 /// A motion as a function of time.
 ///

@@ -18,6 +18,8 @@ pub struct Moment {
     pub omega_ib_b: Rate<B, I, B>,
     /// Its derivative, rad/s².
     pub alpha_ib_b: Vec3<B>,
+    /// Rate of the body against the Earth, rad/s.
+    pub omega_eb_b: Vec3<B>,
 }
 
 /// A trajectory in a gravity field.
@@ -69,6 +71,7 @@ impl Truth {
             f_b: c_bt * f_t,
             omega_ib_b: Rate::claim(omega_eb_b + omega_ie_b),
             // Earth rate stays in e, so in b it turns back.
+            omega_eb_b,
             alpha_ib_b: alpha_eb_b - omega_eb_b.cross(omega_ie_b),
         }
     }

@@ -4,6 +4,7 @@ mod filter;
 pub(super) mod valid;
 pub(super) mod written;
 
+use schuler_frames::Gravity;
 use schuler_imu::Unit;
 use schuler_strapdown::align::{AnyHeadingNoise, Solution, Vectors};
 
@@ -11,6 +12,8 @@ use super::{
     de::At,
     document::{Document, Spot},
     quantity::Range,
+    valid::{Frame, Start},
+    valid_motion::Motion,
     written::Scenario,
 };
 use crate::Diagnostic;
@@ -30,7 +33,16 @@ impl Document {
         let alignment = &self.required(&w.alignment, "alignment", "align", example)?.value;
         let start = self.required_start(w, "align")?;
         let mechanization = self.mechanization(w, "align")?;
-        let origin = self.origin(w, alignment)?;
+        if mechanization.frame != Frame::T || mechanization.coning.samples() != 1 {
+            let node = w.mechanization.as_ref().map_or(self.root(), |m| m.node);
+            return Err(self
+                .diagnostic(Spot::Node(node), "an alignment navigates in the local level, sample by sample")
+                .expected("`frame: t`, and `coning: one` or `previous`")
+                .example(
+                    "mechanization: { frame: t, vertical: held, gravity: somigliana, coning: previous }",
+                ));
+        }
+        let origin = self.origin(w, alignment, &start)?;
         let (rate, samples) = match &origin {
             Origin::Simulated { imu, samples, .. } => (imu.rate, *samples),
             Origin::Log { log, window } => (log.rate, *window),
@@ -65,7 +77,12 @@ impl Document {
         Ok(AlignStudy { start, origin, mechanization, methods, coarse, velocity, knock, runs, navigate })
     }
 
-    fn origin(&self, w: &Scenario, alignment: &written::Alignment) -> Result<Origin, Diagnostic> {
+    fn origin(
+        &self,
+        w: &Scenario,
+        alignment: &written::Alignment,
+        start: &Start,
+    ) -> Result<Origin, Diagnostic> {
         let Some(log) = &w.log else {
             let imu = self.required(&w.imu, "imu", "align", "imu: { rate: 100 Hz }")?;
             let imu = self.imu(imu)?;
@@ -75,7 +92,7 @@ impl Document {
                     .diagnostic(Spot::Node(window.node), "a window of a log, but there is no `log`")
                     .help("`duration` is the time of a simulated alignment"));
             }
-            let motion = self.motion_of(w, "align", samples as f64 / imu.rate)?;
+            let motion = self.base(w, start, samples, 1.0 / imu.rate)?;
             return Ok(Origin::Simulated { motion, imu: Box::new(imu), samples });
         };
         for (node, key) in [
@@ -282,25 +299,20 @@ impl Document {
 }
 
 impl Document {
-    fn motion_of(&self, w: &Scenario, study: &str, _: f64) -> Result<super::valid::Motion, Diagnostic> {
-        let motion = self.required(&w.motion, "motion", study, "motion: static")?;
-        match motion.value {
-            super::written::Motion::Static => Ok(super::valid::Motion::Static),
-            _ => Err(self
-                .diagnostic(Spot::Node(motion.node), "the alignment study stands still")
-                .expected("`static`")
-                .example("motion: static")),
+    /// A motion on the spot.
+    fn base(&self, w: &Scenario, start: &Start, samples: u64, dt: f64) -> Result<Motion, Diagnostic> {
+        let at = self.required(&w.motion, "motion", "align", "motion: static")?;
+        let motion = self.motion(at, Some(start), Some(samples as f64 * dt))?;
+        if !matches!(motion, Motion::Static | Motion::Sway(_) | Motion::Positions(..) | Motion::Coning(_)) {
+            return Err(self
+                .diagnostic(Spot::Node(at.node), "an alignment stays where it is")
+                .expected("`static`, `sway`, `coning` or `positions`")
+                .example("motion: { sway: { roll: { amplitude: 2 deg, period: 8 s } } }"));
         }
-    }
-}
-
-impl super::valid::Motion {
-    /// The trajectory.
-    pub fn trajectory(&self, start: &super::valid::Start) -> Box<dyn crate::trajectory::Trajectory> {
-        Box::new(crate::trajectory::Still::new(start.position, start.attitude))
-    }
-    /// Whether it keeps its attitude, but for rocking.
-    pub fn is_one_position(&self) -> bool {
-        matches!(self, super::valid::Motion::Static)
+        // Any field will do to see whether it can be.
+        match motion.trajectory(start, Gravity::Normal, samples, dt) {
+            Ok(_) => Ok(motion),
+            Err(fault) => Err(self.impossible(at, &fault)),
+        }
     }
 }

@@ -4,7 +4,8 @@ use schuler_imu::Spec;
 use schuler_strapdown::align::{AnyHeadingNoise, Solution, Vectors};
 use schuler_strapdown::filter::Form;
 
-use super::super::valid::{Imu, Mechanization, Motion, Start};
+use super::super::valid::{Imu, Mechanization, Start};
+use super::super::valid_motion::Motion;
 use crate::log::LogSpec;
 
 /// `study: align`.

@@ -7,8 +7,9 @@ use schuler_frames::{Euler, Geodetic, Gravity, Vec3};
 use crate::{
     scenario,
     trajectory::{
-        Coning, ConstantVelocity, Course, GreatCircle, Pose, Positions, RateTable, Sculling, Segment,
-        Segments, Shaken, Sharpness, Sine, Still, Sway, SwayAxes, Trajectory, Truth, Turn,
+        Coning, ConstantVelocity, Course, GreatCircle, Passage, Pose, Positions, RateTable, Recorded, Row,
+        Sculling, Segment, Segments, Shaken, Sharpness, Sine, Still, Sway, SwayAxes, Trajectory, Truth, Turn,
+        Waypoint, Waypoints,
     },
 };
 
@@ -84,6 +85,31 @@ pub fn flight(gravity: Gravity) -> Segments {
     Segments::new(start, &segments, gravity).expect("a flight")
 }
 
+/// Through five points, one of them by its time.
+pub fn route(flat: bool) -> Waypoints {
+    let point =
+        |lat: f64, lon: f64, h: f64, passage| Waypoint { position: Geodetic::new(lat, lon, h), passage };
+    let points = [
+        point(0.8003, 0.2002, 350.0, Passage::Speed(60.0)),
+        point(0.8004, 0.2008, 400.0, Passage::Speed(70.0)),
+        point(0.8001, 0.2012, 420.0, Passage::Time(190.0)),
+        point(0.7996, 0.2013, 400.0, Passage::Speed(65.0)),
+        point(0.7994, 0.2006, 380.0, Passage::Speed(65.0)),
+    ];
+    Waypoints::new(PLACE, &points, flat, Gravity::Normal).expect("a route")
+}
+
+/// The route as somebody records it, at 20 Hz.
+pub fn rows() -> Vec<Row> {
+    let route = route(false);
+    let row = |k: u32| {
+        let t = f64::from(k) * 0.05;
+        let now = route.at(t);
+        Row { t: t + 1000.0, position: now.position, attitude: now.c_tb.as_euler() }
+    };
+    (0..4000).map(row).collect()
+}
+
 /// 2 Hz in every axis.
 pub fn vibration() -> SwayAxes {
     let of = |amplitude: f64, phase: f64| vec![sine(amplitude, 0.5, phase)];
@@ -107,6 +133,8 @@ pub fn kinds(gravity: Gravity) -> Vec<Kind> {
     vec![
         kind("segments", Box::new(flight(gravity)), 600.0),
         kind("shaken", Box::new(Shaken::new(Box::new(flight(gravity)), vibration())), 600.0),
+        kind("waypoints", Box::new(route(false)), 300.0),
+        kind("recorded", Box::new(Recorded::new(&rows(), 2.0).expect("a trajectory")), 199.0),
         kind("constant velocity", Box::new(rhumb), 100.0),
         kind("great circle", Box::new(circle), 3000.0),
         kind("static", Box::new(Still::new(PLACE, ATTITUDE)), 10.0),

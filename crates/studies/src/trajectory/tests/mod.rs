@@ -4,4 +4,5 @@ mod closed_forms;
 mod kinds;
 mod laws;
 mod navigators;
+mod routes;
 mod segments;
