@@ -6,6 +6,7 @@
 mod alignment;
 mod check;
 mod check_motion;
+mod check_simulate;
 mod de;
 mod document;
 mod example;
@@ -37,4 +38,4 @@ pub use valid::{
     Align, Damping, Drift, Expect, Formats, Frame, Imu, ImuStudy, Initial, Mechanization, Navigate, Output,
     Scenario, Start, Statistic, Study, Temperature, Vertical,
 };
-pub use valid_motion::{Aid, Aiding, Motion, RateTable, Simulate, TrajectoryFile, Way};
+pub use valid_motion::{Aid, Aiding, Motion, Simulate, TrajectoryFile, Way};

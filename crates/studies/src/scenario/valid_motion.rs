@@ -3,7 +3,9 @@
 use schuler_frames::{Geodetic, Gravity, Vec3};
 
 use super::valid::{Imu, Start};
-use crate::trajectory::{self, Course, Impossible, Pose, Segment, SwayAxes, Trajectory, Waypoint};
+use crate::trajectory::{
+    self, Course, Impossible, Pose, Segment, SwayAxes, TableTurns, Trajectory, Waypoint,
+};
 
 /// What the instrument goes through.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,7 +16,7 @@ pub enum Motion {
     /// At rest on the Earth.
     Static,
     /// On a rate table that tilts and turns it.
-    RateTable(RateTable),
+    RateTable(TableTurns),
     /// A rocking base.
     Sway(SwayAxes),
     /// Dwells in several attitudes, and turns between them with this largest rate, rad/s.
@@ -57,20 +59,6 @@ pub enum Way {
     Heading(f64),
     /// End; its height does not count.
     To(Geodetic),
-}
-
-/// A rate table: for each axis x, y, z the instrument is turned about it forward and back at
-/// `rate`, with the turning axis tilted from the vertical by `tilt`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RateTable {
-    /// Rate of the table, rad/s, positive.
-    pub rate: f64,
-    /// Tilt of the table axis from the vertical, rad.
-    pub tilt: f64,
-    /// Angular acceleration of its starts and stops, rad/s², positive; infinite where they take no time.
-    pub acceleration: f64,
-    /// Root mean square of its vibration along x, y, z of the body, m/s².
-    pub vibration: [f64; 3],
 }
 
 impl Motion {

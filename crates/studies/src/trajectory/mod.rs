@@ -51,7 +51,7 @@ pub use impossible::Impossible;
 pub use jet::Jet;
 pub use kinematics::{Kinematics, Place, Stance};
 pub use positions::{Pose, Positions};
-pub use rate_table::RateTable;
+pub use rate_table::{RateTable, TableTurns};
 pub use rates::increments_of_rates;
 pub use recorded::{Recorded, Residual, Row};
 pub use segments::{Course, Segment, Segments, Sharpness, Turn};

@@ -3,10 +3,23 @@
 use schuler_frames::{B, Dcm, Geodetic, Rot, T, Vec3};
 
 use super::{Kinematics, Place, Stance, Trajectory};
-use crate::scenario;
 
 /// Segments: about x, y, z, each forward and back.
 const SEGMENTS: u64 = 6;
+
+/// How a rate table turns: about each body axis x, y, z forward and back at `rate`, its own axis tilted from the
+/// vertical by `tilt`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TableTurns {
+    /// Rate of the table, rad/s, positive.
+    pub rate: f64,
+    /// Tilt of the table axis from the vertical, rad.
+    pub tilt: f64,
+    /// Angular acceleration of its starts and stops, rad/s², positive; infinite where they take no time.
+    pub acceleration: f64,
+    /// Root mean square of its vibration along x, y, z of the body, m/s².
+    pub vibration: [f64; 3],
+}
 
 /// A table that turns one body axis after the other about its own axis, which leans from the vertical. Between
 /// axes the instrument is mounted anew, in no time: its attitude jumps there.
@@ -33,7 +46,7 @@ struct Turn {
 
 impl RateTable {
     /// The table at `position` over `samples` of `dt` (s), cut in six; each segment takes whole samples.
-    pub fn new(position: Geodetic, table: &scenario::RateTable, samples: u64, dt: f64) -> Self {
+    pub fn new(position: Geodetic, table: &TableTurns, samples: u64, dt: f64) -> Self {
         let begins = std::array::from_fn(|k| (k as u64 * samples / SEGMENTS) as f64 * dt);
         let turn = Turn { rate: table.rate, acceleration: table.acceleration };
         let ramp = turn.rate / turn.acceleration;

@@ -4,13 +4,10 @@ use std::f64::consts::TAU;
 
 use schuler_frames::{Euler, Geodetic, Gravity, Vec3};
 
-use crate::{
-    scenario,
-    trajectory::{
-        Coning, ConstantVelocity, Course, GreatCircle, Passage, Pose, Positions, RateTable, Recorded, Row,
-        Sculling, Segment, Segments, Shaken, Sharpness, Sine, Still, Sway, SwayAxes, Trajectory, Truth, Turn,
-        Waypoint, Waypoints,
-    },
+use crate::trajectory::{
+    Coning, ConstantVelocity, Course, GreatCircle, Passage, Pose, Positions, RateTable, Recorded, Row,
+    Sculling, Segment, Segments, Shaken, Sharpness, Sine, Still, Sway, SwayAxes, TableTurns, Trajectory,
+    Truth, Turn, Waypoint, Waypoints,
 };
 
 pub const PLACE: Geodetic = Geodetic::new(0.8, 0.2, 300.0);
@@ -48,7 +45,7 @@ pub fn two_positions() -> Positions {
 }
 
 pub fn rate_table(acceleration: f64) -> RateTable {
-    let table = scenario::RateTable { rate: 0.5, tilt: 0.4, acceleration, vibration: [0.1, 0.2, 0.3] };
+    let table = TableTurns { rate: 0.5, tilt: 0.4, acceleration, vibration: [0.1, 0.2, 0.3] };
     RateTable::new(PLACE, &table, 6100, 0.01)
 }
 
