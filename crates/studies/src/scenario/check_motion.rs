@@ -159,7 +159,7 @@ impl Document {
     }
 
     fn one_of(&self, node: NodeId, words: &str, example: &str) -> Diagnostic {
-        self.diagnostic(Spot::Node(node), format!("neither or several of {words}"))
+        self.diagnostic(Spot::Node(node), format!("not exactly one of {words}"))
             .expected(format!("one of {words}"))
             .example(example)
     }

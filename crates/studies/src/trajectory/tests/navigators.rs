@@ -7,7 +7,9 @@ use schuler_strapdown::{
 };
 
 use super::kinds::{PLACE, flight, vibration};
-use crate::trajectory::{Course, Segment, Segments, Shaken, Sharpness, Truth, Turn, increments_of_rates};
+use crate::trajectory::{
+    Course, GreatCircle, Segment, Segments, Shaken, Sharpness, Truth, Turn, increments_of_rates,
+};
 
 fn navigators(start: &Pva) -> [Box<dyn Mechanization>; 4] {
     let (gravity, vertical) = (Gravity::Normal, Vertical::Free);
@@ -80,4 +82,32 @@ fn car_on_a_figure_of_eight() {
     let dt = 0.005;
     let away = away(&truth, dt, 720_000, |k| truth.increments(k as f64 * dt, dt));
     assert!(away.iter().all(|[horizontal, _]| *horizontal < 0.01), "{away:?}");
+}
+
+/// Two hours on a great circle over the north pole, held: the navigators without a north stay within a millimetre.
+#[test]
+fn over_the_pole() {
+    let start = schuler_frames::Geodetic::new(1.45, 0.3, 9000.0);
+    let circle = GreatCircle::new(start, 0.0, 250.0, 0.05, 0.02).expect("a flight");
+    let truth = Truth::new(circle, Gravity::Normal);
+    let first = truth.moment(0.0).pva;
+    let mut all: [Box<dyn Mechanization>; 3] = [
+        Box::new(WanderAzimuth::new(&first, Gravity::Normal, Vertical::Held)),
+        Box::new(<EarthFixed>::new(&first, Gravity::Normal, Vertical::Held)),
+        Box::new(<Inertial>::new(&first, Gravity::Normal, Vertical::Held)),
+    ];
+    let (dt, steps) = (0.04, 180_000);
+    for k in 0..steps {
+        let increments = truth.increments(f64::from(k) * dt, dt);
+        for nav in &mut all {
+            nav.step(&increments, dt);
+        }
+    }
+    let end = truth.moment(f64::from(steps) * dt).pva;
+    // On the other side of the pole.
+    assert!((end.position.lon - 0.3).abs() > 3.0 && end.position.lat < 1.5, "{end:?}");
+    for nav in all {
+        let apart = nav.pva().position.local_ned(end.position.as_ecef());
+        assert!(apart.norm() < 1e-3, "{apart:?}");
+    }
 }
