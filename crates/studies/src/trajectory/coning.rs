@@ -43,7 +43,7 @@ impl Trajectory for Coning {
         Kinematics::new(self.place, stance)
     }
 
-    fn fastest(&self) -> f64 {
+    fn fastest(&self, _: f64) -> f64 {
         self.omega.abs()
     }
 }
@@ -84,7 +84,7 @@ impl Trajectory for Sculling {
         Kinematics::new(Place::from_ecef(r_e), Stance::about(self.c_tb, x, swing * self.angle))
     }
 
-    fn fastest(&self) -> f64 {
+    fn fastest(&self, _: f64) -> f64 {
         self.omega.abs() * (1.0 + self.angle.abs())
     }
 }

@@ -29,7 +29,7 @@ impl Trajectory for ConstantVelocity {
         Kinematics::new(Place::from_velocity(self.track.at(t), self.v_t, Vec3::ZERO), self.stance)
     }
 
-    fn fastest(&self) -> f64 {
+    fn fastest(&self, _: f64) -> f64 {
         // The local level turns by 2e-3 rad/s at most, at escape velocity.
         self.v_t.norm() * 2e-7
     }

@@ -106,7 +106,7 @@ impl Trajectory for GreatCircle {
         self.duration
     }
 
-    fn fastest(&self) -> f64 {
+    fn fastest(&self, _: f64) -> f64 {
         2.0 * self.rate
     }
 }

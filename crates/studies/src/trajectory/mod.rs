@@ -80,9 +80,9 @@ pub trait Trajectory: std::fmt::Debug + Send + Sync {
         None
     }
 
-    /// The largest angular frequency in pose and velocity, rad/s; 0 for what does not move. From it follows how finely
-    /// an interval has to be cut for quadrature to rounding.
-    fn fastest(&self) -> f64;
+    /// The largest angular frequency in pose and velocity from the joint before the time `t` (s) to the next, rad/s; 0 for what does
+    /// not move. From it follows how finely an interval has to be cut for quadrature to rounding.
+    fn fastest(&self, t: f64) -> f64;
 
     /// Mean square of the vibration along x, y, z of the body that the motion itself leaves out, (m/s²)².
     fn vibration(&self) -> [f64; 3] {

@@ -82,7 +82,7 @@ impl Trajectory for Positions {
         Some(self.end)
     }
 
-    fn fastest(&self) -> f64 {
+    fn fastest(&self, _: f64) -> f64 {
         self.fastest
     }
 }

@@ -31,22 +31,22 @@ const X_FOUR: f64 = 0.14;
 const X_FIVE: f64 = 0.43;
 
 /// Calls `add(time, weight)` for each node of the interval from `t` to `t + dt` (s), whose integrand has angular
-/// frequencies up to `fastest` (rad/s) and jumps at `joints` (increasing). The weights sum up to `dt`.
-pub fn nodes(t: f64, dt: f64, fastest: f64, joints: &[f64], mut add: impl FnMut(f64, f64)) {
+/// frequencies up to `fastest` (time to rad/s) and jumps at `joints` (increasing). The weights sum up to `dt`.
+pub fn nodes(t: f64, dt: f64, fastest: impl Fn(f64) -> f64, joints: &[f64], mut add: impl FnMut(f64, f64)) {
     // What is closer to an end than this is the end, met with rounding.
     let margin = 1e-9 * dt;
     let first = joints.partition_point(|joint| *joint <= t + margin);
     let mut begin = 0.0;
     for joint in joints[first..].iter().map(|joint| joint - t).take_while(|joint| *joint < dt - margin) {
-        smooth(t, begin, joint - begin, fastest, &mut add);
+        smooth(t, begin, joint - begin, &fastest, &mut add);
         begin = joint;
     }
-    smooth(t, begin, dt - begin, fastest, &mut add);
+    smooth(t, begin, dt - begin, &fastest, &mut add);
 }
 
 /// From `t + begin` on, `dt` long, without a joint.
-fn smooth(t: f64, begin: f64, dt: f64, fastest: f64, add: &mut impl FnMut(f64, f64)) {
-    let x = fastest * dt;
+fn smooth(t: f64, begin: f64, dt: f64, fastest: &impl Fn(f64) -> f64, add: &mut impl FnMut(f64, f64)) {
+    let x = fastest(t + (begin + 0.5 * dt)) * dt;
     if x < X_FOUR {
         let nodes: &[(f64, f64)] = if x < X_THREE { &THREE } else { &FOUR };
         for (node, weight) in nodes {

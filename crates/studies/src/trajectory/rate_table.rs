@@ -126,7 +126,7 @@ impl Trajectory for RateTable {
         Some(self.begins[SEGMENTS as usize])
     }
 
-    fn fastest(&self) -> f64 {
+    fn fastest(&self, _: f64) -> f64 {
         // Two of its axes see a force that turns; the angle itself is a parabola at most.
         2.0 * self.turn.rate
     }

@@ -153,7 +153,7 @@ impl Trajectory for Recorded {
         self.joints.last().copied()
     }
 
-    fn fastest(&self) -> f64 {
+    fn fastest(&self, _: f64) -> f64 {
         2.0 * smooth::frequency(self.fit.knots())
     }
 }

@@ -10,13 +10,14 @@ use super::{Kinematics, Place, Stance, SwayAxes, Trajectory, sway};
 pub struct Shaken {
     carrier: Box<dyn Trajectory>,
     axes: SwayAxes,
+    /// Of the shaking.
     fastest: f64,
 }
 
 impl Shaken {
     /// `carrier`, shaken.
     pub fn new(carrier: Box<dyn Trajectory>, axes: SwayAxes) -> Self {
-        let fastest = carrier.fastest() + axes.fastest();
+        let fastest = axes.fastest();
         Shaken { carrier, axes, fastest }
     }
 }
@@ -61,8 +62,8 @@ impl Trajectory for Shaken {
         self.carrier.duration()
     }
 
-    fn fastest(&self) -> f64 {
-        self.fastest
+    fn fastest(&self, t: f64) -> f64 {
+        self.carrier.fastest(t) + self.fastest
     }
 
     fn vibration(&self) -> [f64; 3] {

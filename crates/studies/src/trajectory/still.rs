@@ -20,7 +20,7 @@ impl Trajectory for Still {
         self.0
     }
 
-    fn fastest(&self) -> f64 {
+    fn fastest(&self, _: f64) -> f64 {
         0.0
     }
 }

@@ -101,7 +101,7 @@ impl Trajectory for Sway {
         Kinematics::new(place, stance)
     }
 
-    fn fastest(&self) -> f64 {
+    fn fastest(&self, _: f64) -> f64 {
         self.fastest
     }
 }

@@ -97,7 +97,8 @@ impl Truth {
         let mut increments = Increments { dtheta: Vec3::ZERO, dv: Vec3::ZERO };
         let mut alpha = Vec3::ZERO;
         let trajectory = self.trajectory();
-        quadrature::nodes(t, dt, trajectory.fastest(), trajectory.joints(), |t, weight| {
+        let fastest = |t: f64| trajectory.fastest(t);
+        quadrature::nodes(t, dt, fastest, trajectory.joints(), |t, weight| {
             let moment = self.moment(t);
             increments.dtheta += moment.omega_ib_b.as_vec3() * weight;
             increments.dv += moment.f_b * weight;

@@ -126,7 +126,7 @@ impl Trajectory for Waypoints {
         self.times.last().copied()
     }
 
-    fn fastest(&self) -> f64 {
+    fn fastest(&self, _: f64) -> f64 {
         self.fastest
     }
 }

@@ -118,7 +118,6 @@ pub struct Segments {
     pieces: Vec<Piece>,
     track: Track,
     joints: Vec<f64>,
-    fastest: f64,
 }
 
 impl Segments {
@@ -135,8 +134,7 @@ impl Segments {
         let (pieces, joints) = plan.finish();
         let at = |t: f64| piece(&pieces, t).at(t).velocity().0;
         let track = Track::new(start.position, &joints, at)?;
-        let fastest = pieces.iter().map(Piece::fastest).fold(0.0, f64::max);
-        Ok(Segments { pieces, track, joints, fastest })
+        Ok(Segments { pieces, track, joints })
     }
 }
 
@@ -161,7 +159,7 @@ impl Trajectory for Segments {
         self.joints.last().copied()
     }
 
-    fn fastest(&self) -> f64 {
-        self.fastest
+    fn fastest(&self, t: f64) -> f64 {
+        piece(&self.pieces, t).fastest()
     }
 }

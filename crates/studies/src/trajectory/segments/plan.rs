@@ -142,10 +142,16 @@ impl Plan {
             .iter()
             .map(|pull| {
                 let mut gained = 0.0;
-                quadrature::nodes(0.0, ramp, smooth::frequency(ramp), &[], |t, weight| {
-                    let part = smooth::step(t / ramp, ramp).value();
-                    gained += speed * libm::sin(pull.from + (pull.to - pull.from) * part) * weight;
-                });
+                quadrature::nodes(
+                    0.0,
+                    ramp,
+                    |_| smooth::frequency(ramp),
+                    &[],
+                    |t, weight| {
+                        let part = smooth::step(t / ramp, ramp).value();
+                        gained += speed * libm::sin(pull.from + (pull.to - pull.from) * part) * weight;
+                    },
+                );
                 gained
             })
             .sum();
