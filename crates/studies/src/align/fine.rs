@@ -4,7 +4,7 @@ use schuler_frames::{B, Rot, T, Vec3};
 use schuler_imu::process::LinearModel;
 use schuler_imu::{Instrument, Truth};
 use schuler_strapdown::filter::{
-    Accumulator, Filter, Measurement, Model, NavState, NavStates, Now, Position, Velocity,
+    Accumulator, Filter, Measurement, Model, NavState, NavStates, Now, Observation, Position, Velocity,
     measurement::HORIZONTAL,
 };
 use schuler_strapdown::{ErrorDynamics, Increments, LocalLevel, Mechanization, Pva, Samples};
@@ -15,7 +15,7 @@ use super::place::Place;
 use crate::scenario::FilterSettings;
 
 /// Room for states: five or seven navigation errors and what the sources need.
-const ROOM: usize = 48;
+pub const ROOM: usize = 48;
 
 /// The three attitude errors.
 const PHI: [NavState; 3] = [NavState::AttitudeN, NavState::AttitudeE, NavState::AttitudeD];
@@ -104,23 +104,7 @@ impl Fine {
         let step = run.accumulator.close(self.filter.model());
         let pva = run.navigator.pva();
         let now = Now { pva, seen: run.seen.0, dt: run.seen.1 };
-        let sigma = [self.settings.noise; 3];
-        let observation = if self.settings.position {
-            let fixed = Position { position: run.place.position, sigma, lever: Vec3::ZERO, axes: HORIZONTAL };
-            fixed.observe(&now)
-        } else {
-            let v_t = Vec3::new(velocity[0], velocity[1], 0.0);
-            let known = Velocity { v_t, sigma, lever: Vec3::ZERO, axes: HORIZONTAL };
-            known.observe(&now)
-        };
-        let observation = match self.coloured {
-            // Computed minus measured: the noise counts the other way.
-            Some([n, e]) => observation
-                .with_extra(n, [-1.0, 0.0, 0.0])
-                .and_then(|o| o.with_extra(e, [0.0, -1.0, 0.0]))
-                .map_err(|e| e.to_string())?,
-            None => observation,
-        };
+        let observation = observation(&self.settings, self.coloured, &run.place, velocity, &now)?;
         let cycle = self.filter.cycle(&mut self.adaptation, &step, &observation, &now);
         cycle.map_err(|e| e.to_string())?;
         let mut pva = self.filter.feedback(&pva);
@@ -131,6 +115,16 @@ impl Fine {
         run.navigator = LocalLevel::new(&pva, run.place.gravity, run.place.vertical);
         run.accumulator.begin(self.filter.model(), &pva);
         Ok(())
+    }
+
+    /// What it sees when the base has this velocity (north, east, m/s).
+    pub fn observation(&self, place: &Place, velocity: [f64; 2], now: &Now) -> Result<Observation, String> {
+        observation(&self.settings, self.coloured, place, velocity, now)
+    }
+
+    /// The filter.
+    pub fn filter(&self) -> &Filter<ROOM> {
+        &self.filter
     }
 
     pub fn found(&self) -> Result<Found, String> {
@@ -155,4 +149,25 @@ impl Fine {
             self.filter.model().nav_index(state).expect("invariant: every choice here has attitude")
         })
     }
+}
+
+/// The base has this velocity, or stays where it is, by what the filter measures.
+fn observation(
+    settings: &FilterSettings,
+    coloured: Option<[usize; 2]>,
+    place: &Place,
+    velocity: [f64; 2],
+    now: &Now,
+) -> Result<Observation, String> {
+    let sigma = [settings.noise; 3];
+    let seen = if settings.position {
+        Position { position: place.position, sigma, lever: Vec3::ZERO, axes: HORIZONTAL }.observe(now)
+    } else {
+        let v_t = Vec3::new(velocity[0], velocity[1], 0.0);
+        Velocity { v_t, sigma, lever: Vec3::ZERO, axes: HORIZONTAL }.observe(now)
+    };
+    let Some([n, e]) = coloured else { return Ok(seen) };
+    // Computed minus measured: the noise counts the other way.
+    let with = seen.with_extra(n, [-1.0, 0.0, 0.0]).and_then(|o| o.with_extra(e, [0.0, -1.0, 0.0]));
+    with.map_err(|e| e.to_string())
 }

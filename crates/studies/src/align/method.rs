@@ -151,6 +151,14 @@ impl Worker {
         }
     }
 
+    /// Standard deviations of all states now, if it is a filter with a model.
+    pub fn state_sigmas(&self) -> Vec<f64> {
+        match self {
+            Worker::Fine(fine) => (0..fine.filter().model().len()).map(|k| fine.filter().sigma(k)).collect(),
+            _ => Vec::new(),
+        }
+    }
+
     /// Normalized estimation error squared of phi (three degrees of freedom), if the method has a covariance.
     pub fn nees(&self, phi: Vec3<T>) -> Option<f64> {
         match self {

@@ -6,6 +6,7 @@ mod fine;
 mod limit;
 mod log;
 mod method;
+mod observability;
 mod place;
 mod report;
 mod run;

@@ -1,9 +1,12 @@
 //! The record of an align study.
 
+use schuler_frames::phi_between;
 use schuler_strapdown::filter::chi_square;
 
 use super::figures;
 use super::limit::Limit;
+use super::observability::{self, Observed};
+use super::place::Place;
 use super::run::Trace;
 use super::scene::Scene;
 use super::statistics::{Sums, Totals};
@@ -51,8 +54,11 @@ pub fn record(
     let mut record = Record::new(scenario, summary(study, scene, limit, totals, end, &shown));
     record.tables.push(errors(study, scene, limit, first, totals, &shown));
     record.tables.push(consistency(study, scene, totals, end));
+    let observed = observe(study, scene);
+    record.tables.push(states(&observed, first));
     record.tables.push(finals(study, totals, no_heading.is_some()));
     record.notes = notes(study, scene, totals);
+    record.notes.extend(unobserved(&observed));
     record.notes.extend(no_heading.clone());
     if scenario.output.formats.png || scenario.output.formats.svg {
         record.figures = figures::figures(&scenario.title, study, scene, limit, first, totals, end);
@@ -145,6 +151,63 @@ fn consistency(study: &AlignStudy, scene: &Scene, totals: &Totals, end: usize) -
         }
     }
     table
+}
+
+/// What each filter can observe at all: on a base that does not turn by its start, else by the start and the end.
+fn observe(study: &AlignStudy, scene: &Scene) -> Vec<(String, usize, Observed)> {
+    let coning = study.mechanization.coning;
+    let place = Place { position: scene.position, gravity: scene.gravity, vertical: scene.vertical, coning };
+    let attitudes = [scene.c_tb(0), scene.c_tb(scene.samples)];
+    let still = phi_between(attitudes[0], attitudes[1]).norm() == 0.0;
+    let attitudes = if still { &attitudes[..1] } else { &attitudes[..] };
+    study
+        .methods
+        .iter()
+        .enumerate()
+        .filter_map(|(i, method)| match &method.kind {
+            MethodKind::Filter(settings) => {
+                Some((method.name.clone(), i, observability::observed(settings, &place, attitudes)?))
+            }
+            _ => None,
+        })
+        .collect()
+}
+
+/// States of each filter: standard deviation at the start, at the end, and after endless noise-free measurement.
+fn states(observed: &[(String, usize, Observed)], first: &[Trace]) -> Table {
+    let names = ["source", "state", "start", "end", "limit"];
+    let mut table = Table::new("observability", &names, &["source", "state"]);
+    for (name, i, observed) in observed {
+        for (k, state) in observed.states.iter().enumerate() {
+            let end = first[*i].states.get(k).copied().unwrap_or(f64::NAN);
+            let numbers = [state.start, end, state.limit];
+            let mut row: Vec<Cell> = vec![name.as_str().into(), state.name.as_str().into()];
+            row.extend(numbers.map(Cell::from));
+            table.push(&row);
+        }
+    }
+    table
+}
+
+/// Rank and unobservable combinations, once for filters that share them.
+fn unobserved(observed: &[(String, usize, Observed)]) -> Vec<String> {
+    let mut said: Vec<(Vec<&str>, String)> = Vec::new();
+    for (name, _, observed) in observed {
+        let Observed { rank, of, never, .. } = observed;
+        let text = if never.is_empty() {
+            format!("observes all of its {of} states")
+        } else {
+            format!(
+                "observes {rank} of {of} combinations of its states (SI units); never: {}",
+                never.iter().map(|v| format!("({v})")).collect::<Vec<_>>().join(", ")
+            )
+        };
+        match said.iter_mut().find(|(_, same)| *same == text) {
+            Some((names, _)) => names.push(name),
+            None => said.push((vec![name], text)),
+        }
+    }
+    said.iter().map(|(names, text)| format!("`{}` {text}", names.join("`, `"))).collect()
 }
 
 /// Each run at the end of the alignment.

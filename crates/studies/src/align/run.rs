@@ -27,6 +27,8 @@ pub struct Trace {
     pub rows: Vec<Row>,
     /// Why there is no attitude at the end of the alignment.
     pub failure: Option<String>,
+    /// Standard deviations of a filter's states at the end of the alignment.
+    pub states: Vec<f64>,
 }
 
 const NOTHING: Vec3<T> = Vec3::new(f64::NAN, f64::NAN, f64::NAN);
@@ -41,8 +43,9 @@ pub fn run(scene: &Scene, study: &AlignStudy, imu: &Instrument, stream: Stream) 
     let mut coarse = CoarseWork::new(study, scene, stream);
     let mut workers: Vec<Result<Worker, String>> =
         study.methods.iter().map(|method| Worker::new(method, scene.time(scene.samples))).collect();
-    let mut traces: Vec<Trace> =
-        workers.iter().map(|_| Trace { rows: Vec::with_capacity(scene.rows.len()), failure: None }).collect();
+    let trace =
+        || Trace { rows: Vec::with_capacity(scene.rows.len()), failure: None, states: Vec::new() };
+    let mut traces: Vec<Trace> = workers.iter().map(|_| trace()).collect();
     let mut samples = Samples::new(coning);
     let mut navigators: Vec<Option<Navigator>> = Vec::new();
     let mut rows = scene.rows.iter().peekable();
@@ -94,6 +97,9 @@ fn aligned(worker: &Result<Worker, String>, place: &Place, scene: &Scene, k: u64
             let phi = scene.error(found.c_tb, k);
             let error = NavError { phi, ..NavError::default() };
             let sigma = found.sigma.unwrap_or([f64::NAN; 3]);
+            if last {
+                trace.states = worker.state_sigmas();
+            }
             Row { error, sigma, nees: worker.nees(phi).unwrap_or(f64::NAN) }
         }
         Err(why) => {
