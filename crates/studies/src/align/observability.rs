@@ -59,10 +59,8 @@ pub fn observed(settings: &FilterSettings, place: &Place, attitudes: &[Rot<T, B>
     // Attitude first: combinations are read as what goes with a tilt or a heading.
     let mut order: Vec<usize> = (0..n).collect();
     order.sort_by_key(|&k| !names[k].starts_with("phi") && !names[k].starts_with("psi"));
-    let never = combinations(&null, nullity, &sigma, &order)
-        .iter()
-        .map(|v| words(v, &names, &sigma))
-        .collect();
+    let never =
+        combinations(&null, nullity, &sigma, &order).iter().map(|v| words(v, &names, &sigma)).collect();
     Some(Observed { rank: observability.rank(), of: observability.states(), states, never })
 }
 

@@ -43,8 +43,7 @@ pub fn run(scene: &Scene, study: &AlignStudy, imu: &Instrument, stream: Stream) 
     let mut coarse = CoarseWork::new(study, scene, stream);
     let mut workers: Vec<Result<Worker, String>> =
         study.methods.iter().map(|method| Worker::new(method, scene.time(scene.samples))).collect();
-    let trace =
-        || Trace { rows: Vec::with_capacity(scene.rows.len()), failure: None, states: Vec::new() };
+    let trace = || Trace { rows: Vec::with_capacity(scene.rows.len()), failure: None, states: Vec::new() };
     let mut traces: Vec<Trace> = workers.iter().map(|_| trace()).collect();
     let mut samples = Samples::new(coning);
     let mut navigators: Vec<Option<Navigator>> = Vec::new();

@@ -1,6 +1,8 @@
 //! `study: align`: from the written to the valid form.
 
 mod filter;
+#[cfg(test)]
+mod tests;
 pub(super) mod valid;
 pub(super) mod written;
 
