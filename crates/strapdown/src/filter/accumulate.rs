@@ -63,7 +63,7 @@ pub struct Accumulator<const N: usize> {
     dt: f64,
     pub(super) of_interval: [Option<SmallStep>; N],
     pub(super) interval: f64,
-    level: Level,
+    pub(super) level: Level,
 }
 
 impl<const N: usize> Accumulator<N> {

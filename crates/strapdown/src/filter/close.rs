@@ -1,5 +1,6 @@
 //! Transition and process noise of an interval from what was gathered over it.
 
+use fearless_simd::dispatch;
 use nalgebra::{Matrix3, SMatrix, Vector3};
 use schuler_frames::{B, Geodetic, T, Vec3};
 use schuler_imu::Instrument;
@@ -25,12 +26,20 @@ impl<const N: usize> Accumulator<N> {
         out.dt = t;
         let force = self.m0 / t;
         let slow = self.slow(model, force);
-        self.transition(model, &slow, out);
-        self.couplings(model, &slow, out);
+        // Nothing here asks for lanes by itself, but small matrices gain from wide ones.
+        let level = self.level;
+        dispatch!(level, _simd => self.assemble(model, &slow, force, out));
+    }
+
+    #[inline(always)]
+    fn assemble(&self, model: &Model<N>, slow: &Slow, force: Vector3<f64>, out: &mut Propagation<N>) {
+        self.transition(model, slow, out);
+        self.couplings(model, slow, out);
         self.noise(model, force, out);
     }
 
     /// One where the row down is driven by nothing.
+    #[inline(always)]
     fn free(&self) -> Vector3<f64> {
         Vector3::new(1.0, 1.0, if self.dynamics.vertical == Vertical::Held { 0.0 } else { 1.0 })
     }
@@ -74,7 +83,9 @@ impl<const N: usize> Accumulator<N> {
     /// M the single integral of [f ×]; but the terms with one S, ∫ F(T, t) S F(t, 0) dt, are made right to their order:
     /// where force acts before or after S, its first moment is taken as it was (∫ M(t) dt and the rest of M T, 2/T because
     /// X is half of S T), and with J, the force being constant there, it is two thirds of the product. Products of X with
-    /// itself are kept where they turn or damp.
+    /// itself are kept where they turn or damp, and the third term of each Schuler loop (velocity, level, velocity and position,
+    /// velocity, position), which counts in the long run: it is (w_s T)²/6 of the first.
+    #[inline(always)]
     fn transition(&self, model: &Model<N>, x: &Slow, out: &mut Propagation<N>) {
         let t = self.t;
         let free = Matrix3::from_diagonal(&self.free());
@@ -90,13 +101,14 @@ impl<const N: usize> Accumulator<N> {
         };
         let k = j * (2.0 / 3.0);
         block(0, 0, id + (x.rr + x.rr * x.rr) * 2.0 + tv * x.vr + k * x.pr);
-        block(0, 3, tv + x.rr * tv + tv * x.vv + k * x.pv);
+        block(0, 3, tv + x.rr * tv + tv * x.vv + k * x.pv + tv * x.vr * tv * (1.0 / 3.0));
         block(0, 6, j + x.rr * k + k * x.pp + tv * x.vv * m * (1.0 / 3.0));
-        block(3, 0, (x.vr + x.vr * x.rr + x.vv * x.vr) * 2.0 + after * x.pr);
+        block(3, 0, (x.vr + x.vr * x.rr + x.vv * x.vr) * 2.0 + after * x.pr + x.vr * tv * x.vr * (2.0 / 3.0));
         block(3, 3, id + (x.vv + x.vv * x.vv) * 2.0 + x.vr * tv + after * x.pv);
-        block(3, 6, m + x.vr * k + x.vv * before + after * x.pp);
+        let round = x.pv * m * (1.0 / 3.0);
+        block(3, 6, m + x.vr * k + x.vv * before + after * x.pp + m * round);
         block(6, 0, x.pr * 2.0);
-        block(6, 3, x.pv * 2.0 + x.pr * tv);
+        block(6, 3, x.pv * 2.0 + x.pr * tv + round * x.pv * 2.0);
         block(6, 6, id + (x.pp + x.pp * x.pp) * 2.0 + x.pr * k + x.pv * before);
         for (column, &full_j) in model.full().iter().enumerate() {
             for (i, &full_i) in model.full().iter().enumerate() {
@@ -106,6 +118,7 @@ impl<const N: usize> Accumulator<N> {
     }
 
     /// Phi_ns = E F_ns, with one S as in `transition`: ∫ v dt is r, and of r two thirds.
+    #[inline(always)]
     fn couplings(&self, model: &Model<N>, x: &Slow, out: &mut Propagation<N>) {
         let (first, free, per_t) = (model.nav_len(), self.free(), 2.0 / self.t);
         let all = first == 9;
@@ -137,6 +150,7 @@ impl<const N: usize> Accumulator<N> {
     }
 
     /// Noise through the fast part, the force being constant.
+    #[inline(always)]
     fn noise(&self, model: &Model<N>, force: Vector3<f64>, out: &mut Propagation<N>) {
         let t = self.t;
         let free = self.free();
@@ -193,6 +207,7 @@ impl<const N: usize> Accumulator<N> {
     /// ```
     ///
     /// (in Q_vp the first moment of the force is taken as it was).
+    #[inline(always)]
     fn white_noise(&self, model: &Model<N>, f: &Matrix3<f64>) -> Nine {
         let t = self.t;
         let free = self.free();
@@ -237,6 +252,7 @@ struct Group {
 
 impl Group {
     /// What the noise that drives them makes of the navigation errors, on and above the diagonal.
+    #[inline(always)]
     fn add_to(&self, q: &mut Nine, f: &Matrix3<f64>, free: &Vector3<f64>) {
         let z = |i: usize, j: usize| self.integrals[(i, j)];
         let mut block = |row: usize, column: usize, m: Matrix3<f64>| {

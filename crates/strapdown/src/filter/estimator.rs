@@ -113,8 +113,7 @@ impl<const N: usize> Filter<N> {
     /// Time update: x := Phi x, P := Phi P Phi' + Q.
     pub fn propagate(&mut self, step: &Propagation<N>) {
         self.carry(step);
-        step.transport(&mut self.p);
-        step.diffuse(&mut self.p);
+        step.apply(&mut self.p);
     }
 
     /// The part of the time update that moves the estimates: x := Phi x.

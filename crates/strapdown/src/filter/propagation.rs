@@ -120,6 +120,9 @@ impl<const N: usize> Propagation<N> {
 
     /// x := Phi x.
     pub fn carry(&self, x: &mut SVector<f64, N>) {
+        if x.iter().all(|x| *x == 0.0) {
+            return;
+        }
         let old = *x;
         x.as_mut_slice()[..self.m].fill(0.0);
         for (column, old) in self.phi_n[..self.n].iter().zip(old.iter()) {
@@ -143,13 +146,23 @@ impl<const N: usize> Propagation<N> {
         [self.phi_s[s], if self.paired[s] { self.phi_s[s + 1] } else { [0.0; 2] }]
     }
 
+    /// P := Phi P Phi' + Q, symmetric to the last bit.
+    pub fn apply(&self, p: &mut SMatrix<f64, N, N>) {
+        self.carry_covariance(p, Some(&self.q_n));
+        self.diffuse_sources(p);
+    }
+
     /// P := Phi P Phi', symmetric to the last bit.
     pub fn transport(&self, p: &mut SMatrix<f64, N, N>) {
+        self.carry_covariance(p, None);
+    }
+
+    fn carry_covariance(&self, p: &mut SMatrix<f64, N, N>, q: Option<&[[f64; N]; 9]>) {
         let (m, n) = (self.m, self.n);
         let p = &mut p.data.0;
         let mut w = [[0.0; N]; 9];
         let level = self.level;
-        dispatch!(level, simd => transport(simd, &self.phi_n, &self.decay, p, &mut w, m, n));
+        dispatch!(level, simd => transport(simd, &self.phi_n, &self.decay, q, p, &mut w, m, n));
         // Blocks of two states; those of one have been scaled.
         for s in (m..n).filter(|&s| self.paired[s]) {
             let (t, [[a, b], [c, d]]) = (s + 1, self.phi_of(s));
@@ -164,7 +177,8 @@ impl<const N: usize> Propagation<N> {
             p[s][t] = p[t][s];
             for i in 0..m {
                 let (u, v) = (w[i][s], w[i][t]);
-                (p[i][s], p[i][t]) = (a * u + b * v, c * u + d * v);
+                let (q_s, q_t) = q.map_or((0.0, 0.0), |q| (q[i][s], q[i][t]));
+                (p[i][s], p[i][t]) = (a * u + b * v + q_s, c * u + d * v + q_t);
                 (p[s][i], p[t][i]) = (p[i][s], p[i][t]);
             }
         }
@@ -193,23 +207,30 @@ impl<const N: usize> Propagation<N> {
     }
 
     /// P := P + Q.
-    pub fn diffuse(&self, p: &mut SMatrix<f64, N, N>) {
+    pub fn diffuse(&self, p_whole: &mut SMatrix<f64, N, N>) {
         let (m, n) = (self.m, self.n);
-        let p = &mut p.data.0;
+        let p = &mut p_whole.data.0;
         for (p, q) in p[..m].iter_mut().zip(&self.q_n) {
             for (p, q) in p[..n].iter_mut().zip(&q[..n]) {
                 *p += q;
             }
         }
         for s in m..n {
-            let second = s > m && self.paired[s - 1];
+            for i in 0..m {
+                p[s][i] = p[i][s];
+            }
+        }
+        self.diffuse_sources(p_whole);
+    }
+
+    fn diffuse_sources(&self, p: &mut SMatrix<f64, N, N>) {
+        let p = &mut p.data.0;
+        for s in self.m..self.n {
+            let second = s > self.m && self.paired[s - 1];
             let first = if second { s - 1 } else { s };
             p[s][first] += self.q_s[s][0];
             if second || self.paired[s] {
                 p[s][first + 1] += self.q_s[s][1];
-            }
-            for i in 0..m {
-                p[s][i] = p[i][s];
             }
         }
     }

@@ -8,12 +8,15 @@ use fearless_simd::{Simd, SimdBase};
 pub(crate) type Column = [f64; 16];
 
 /// W = Phi P for the `m` rows of the navigation errors, and Phi P Phi' written into `p`, in which source states are only
-/// scaled by their `decay`. `p` is symmetric, `n` states are in use.
+/// scaled by their `decay`; with `q` the process noise of the rows of the navigation errors is added. `p` is symmetric, `n`
+/// states are in use.
 #[inline(always)]
+#[allow(clippy::too_many_arguments, reason = "a kernel: what it works on, piece by piece")]
 pub(crate) fn transport<S: Simd, const N: usize>(
     simd: S,
     phi: &[Column; N],
     decay: &[f64; N],
+    q: Option<&[[f64; N]; 9]>,
     p: &mut [[f64; N]; N],
     w: &mut [[f64; N]; 9],
     m: usize,
@@ -21,17 +24,19 @@ pub(crate) fn transport<S: Simd, const N: usize>(
 ) {
     // Where all is in use the loops have known lengths.
     if n == N && m == 9 {
-        all::<S, N>(simd, phi, decay, p, w, 9, N);
+        all::<S, N>(simd, phi, decay, q, p, w, 9, N);
     } else {
-        all::<S, N>(simd, phi, decay, p, w, m, n);
+        all::<S, N>(simd, phi, decay, q, p, w, m, n);
     }
 }
 
 #[inline(always)]
+#[allow(clippy::too_many_arguments, reason = "a kernel: what it works on, piece by piece")]
 fn all<S: Simd, const N: usize>(
     simd: S,
     phi: &[Column; N],
     decay: &[f64; N],
+    q: Option<&[[f64; N]; 9]>,
     p: &mut [[f64; N]; N],
     w: &mut [[f64; N]; 9],
     m: usize,
@@ -44,13 +49,22 @@ fn all<S: Simd, const N: usize>(
         for (p, decay) in p[i][m..n].iter_mut().zip(&decay[m..n]) {
             *p *= a * decay;
         }
-        for k in 0..m {
-            p[i][k] = a * w[k][i];
-        }
     }
     for i in 0..m {
         for ((p, w), decay) in p[i][m..n].iter_mut().zip(&w[i][m..n]).zip(&decay[m..n]) {
             *p = decay * w;
+        }
+    }
+    if let Some(q) = q {
+        for i in 0..m {
+            for (p, q) in p[i][..n].iter_mut().zip(&q[i][..n]) {
+                *p += q;
+            }
+        }
+    }
+    for j in m..n {
+        for i in 0..m {
+            p[j][i] = p[i][j];
         }
     }
 }
