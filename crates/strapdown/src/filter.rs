@@ -45,11 +45,13 @@
 mod accumulate;
 mod block;
 pub mod chi_square;
+mod close;
 mod dual;
 mod error;
 mod estimator;
 mod exact;
 mod gate;
+mod gather;
 pub mod measurement;
 mod model;
 mod observability;
@@ -63,6 +65,7 @@ mod small_process;
 mod smoother;
 mod states;
 pub mod strategy;
+mod transport;
 
 pub use accumulate::Accumulator;
 pub use dual::Dual;

@@ -1,6 +1,6 @@
 //! The chi-square distribution, for gates and consistency bands.
 
-use core::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI};
+use core::f64::consts::FRAC_1_SQRT_2;
 
 /// Probability that the sum of squares of `dof` independent standard normals exceeds `x`.
 ///
@@ -11,16 +11,14 @@ pub fn exceedance(x: f64, dof: usize) -> f64 {
         return if x.is_nan() { x } else { 1.0 };
     }
     let half = 0.5 * x;
-    // Term k of the sum, e^(-x/2) (x/2)^k / Γ(k + 1), by recurrence from the smallest k.
-    let (mut sum, mut term, mut k) = if dof.is_multiple_of(2) {
-        (0.0, libm::exp(-half), 0.0)
-    } else {
-        (libm::erfc(libm::sqrt(x) * FRAC_1_SQRT_2), libm::exp(-half) * libm::sqrt(x * FRAC_2_PI), 0.5)
-    };
-    while k < 0.5 * dof as f64 - 0.25 {
+    // Terms e^(-x/2) (x/2)^k / Γ(k + 1) from the last to the first, so that none vanishes for many degrees of freedom.
+    let mut k = 0.5 * dof as f64 - 1.0;
+    let mut term = libm::exp(k * libm::log(half) - half - libm::lgamma(k + 1.0));
+    let mut sum = if dof.is_multiple_of(2) { 0.0 } else { libm::erfc(libm::sqrt(x) * FRAC_1_SQRT_2) };
+    while k > -0.25 {
         sum += term;
-        k += 1.0;
-        term *= half / k;
+        term *= k / half;
+        k -= 1.0;
     }
     sum
 }

@@ -2,6 +2,7 @@
 
 mod accumulated;
 mod common;
+mod consistency;
 mod covariance_table;
 mod dual;
 mod laws;
