@@ -6,8 +6,10 @@ mod flight;
 mod plain;
 
 use divan::{Bencher, black_box};
-use schuler_frames::Gravity;
-use schuler_strapdown::{EarthFixed, Inertial, LocalLevel, Vertical, WanderAzimuth};
+use schuler_frames::{B, Gravity, Vec3};
+use schuler_strapdown::{
+    EarthFixed, Eight, Increments, Inertial, LANES, LocalLevel, LocalLevelLanes, Vertical, WanderAzimuth,
+};
 
 fn main() {
     divan::main();
@@ -21,6 +23,19 @@ fn local_level(bencher: Bencher, gravity: Gravity) {
         for increments in black_box(&log) {
             nav.step(increments, flight::DT);
         }
+        nav
+    });
+}
+
+/// Eight runs in lanes; an item is a step of one of them.
+#[divan::bench(args = [Gravity::Somigliana, Gravity::Normal])]
+fn local_level_lanes(bencher: Bencher, gravity: Gravity) {
+    let eight = |v: Vec3<B>| Vec3::<B, Eight>::claim(v.as_array().map(|x| [x; LANES]));
+    let log: Vec<Increments<Eight>> =
+        flight::log().map(|i| Increments { dtheta: eight(i.dtheta), dv: eight(i.dv) }).collect();
+    bencher.counter(divan::counter::ItemsCount::new(flight::STEPS * LANES)).bench_local(|| {
+        let mut nav = LocalLevelLanes::new(&[flight::start(); LANES], gravity, Vertical::Free);
+        nav.steps(black_box(&log), flight::DT);
         nav
     });
 }

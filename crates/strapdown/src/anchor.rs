@@ -124,24 +124,23 @@ impl<S: Real> Anchor<S> {
     }
 }
 
-#[cfg(test)]
-impl Anchor<f64> {
-    /// The same place in other numbers.
-    pub fn lifted<S: Real>(&self, zero: S) -> Anchor<S> {
-        let lift = |x: f64| zero.lift(x);
+impl<S> Anchor<S> {
+    /// Every number in it in another kind of number, always in the same order.
+    #[inline(always)]
+    pub fn map<R>(self, f: &mut impl FnMut(S) -> R) -> Anchor<R> {
         Anchor {
-            lat: Sum::new(lift(self.lat.value())),
-            lon: Sum::new(lift(self.lon.value())),
-            h: Sum::new(lift(self.h.value())),
-            sin_lat: lift(self.sin_lat),
-            cos_lat: lift(self.cos_lat),
-            sec: self.sec.map(lift),
-            per_r_m: lift(self.per_r_m),
-            per_r_n: lift(self.per_r_n),
-            r_m_slope: self.r_m_slope.map(lift),
-            r_n_slope: self.r_n_slope.map(lift),
-            g_n: self.g_n.map(lift),
-            g_d: self.g_d.map(lift),
+            lat: self.lat.map(f),
+            lon: self.lon.map(f),
+            h: self.h.map(f),
+            sin_lat: f(self.sin_lat),
+            cos_lat: f(self.cos_lat),
+            sec: self.sec.map(&mut *f),
+            per_r_m: f(self.per_r_m),
+            per_r_n: f(self.per_r_n),
+            r_m_slope: self.r_m_slope.map(&mut *f),
+            r_n_slope: self.r_n_slope.map(&mut *f),
+            g_n: self.g_n.map(&mut *f),
+            g_d: self.g_d.map(&mut *f),
         }
     }
 }

@@ -13,6 +13,14 @@ pub(crate) struct Sum<S> {
     lo: S,
 }
 
+impl<S> Sum<S> {
+    /// Every number in it in another kind of number.
+    #[inline(always)]
+    pub fn map<R>(self, f: &mut impl FnMut(S) -> R) -> Sum<R> {
+        Sum { hi: f(self.hi), lo: f(self.lo) }
+    }
+}
+
 impl<S: Real> Sum<S> {
     #[inline(always)]
     pub fn new(value: S) -> Self {
@@ -74,6 +82,14 @@ pub(crate) struct Quaternion<S> {
     /// What holds |q| at 1: half of the first-order correction, from the step before, so that nothing waits for
     /// it. (The whole one, so late, would swing for ever.)
     pull: S,
+}
+
+impl<S> Quaternion<S> {
+    /// Every number in it in another kind of number.
+    #[inline(always)]
+    pub fn map<R>(self, f: &mut impl FnMut(S) -> R) -> Quaternion<R> {
+        Quaternion { parts: self.parts.map(|part| part.map(f)), pull: f(self.pull) }
+    }
 }
 
 impl<S: Real> Quaternion<S> {

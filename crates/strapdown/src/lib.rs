@@ -26,7 +26,7 @@ pub use coning::{BodyMotion, Coning, Samples};
 pub use error_dynamics::{ErrorDynamics, System};
 pub use first_order::FirstOrder;
 pub use increments::Increments;
-pub use local_level::LocalLevel;
+pub use local_level::{Eight, LANES, LocalLevel, LocalLevelLanes};
 pub use mechanization::Mechanization;
 pub use psi::PsiMap;
 pub use pva::{NavError, Pva};

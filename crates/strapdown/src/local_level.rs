@@ -94,6 +94,25 @@ impl Mechanization for LocalLevel {
     }
 }
 
+impl<S> LocalLevel<S> {
+    /// Every number in it in another kind of number.
+    #[inline(always)]
+    fn map<R>(self, f: &mut impl FnMut(S) -> R) -> LocalLevel<R> {
+        LocalLevel {
+            q_tb: self.q_tb.map(f),
+            v_t: Vec3::claim(self.v_t.as_array().map(&mut *f)),
+            anchor: self.anchor.map(f),
+            way: self.way.map(&mut *f),
+            age: self.age,
+            a_free: Vec3::claim(self.a_free.as_array().map(&mut *f)),
+            omega_it: Vec3::claim(self.omega_it.as_array().map(&mut *f)),
+            baro_a: f(self.baro_a),
+            vertical: self.vertical,
+            gravity: self.gravity,
+        }
+    }
+}
+
 impl<S: Real> LocalLevel<S> {
     #[inline(always)]
     fn advance_kernel(&mut self, motion: &BodyMotion<S>, dt: f64) {
@@ -155,6 +174,9 @@ fn horizontal_if<S: Real>(held: bool, v: Vec3<T, S>) -> Vec3<T, S> {
 
 #[cfg(test)]
 mod jacobian;
+mod lanes;
+
+pub use lanes::{Eight, LANES, LocalLevelLanes};
 
 #[cfg(test)]
 mod tests {

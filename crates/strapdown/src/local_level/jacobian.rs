@@ -101,7 +101,7 @@ fn derivative(vertical: Vertical, f_b: Vec3<B>, omega: Vec3<B>, dt: f64) -> SMat
     let mut nav = LocalLevel {
         q_tb: Quaternion::new(q),
         v_t: Vec3::claim(core::array::from_fn(|k| along(v[k], 3 + k, 1.0))),
-        anchor: nav.anchor.lifted(zero),
+        anchor: nav.anchor.map(&mut |x| zero.lift(x)),
         way: core::array::from_fn(|k| along(0.0, k, 1.0 / at_start[k])),
         age: 0.0,
         a_free: Vec3::new(zero, zero, zero),
