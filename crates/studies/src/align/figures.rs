@@ -1,5 +1,7 @@
 //! Pictures of an align study.
 
+use schuler_frames::{T, Vec3};
+
 use super::limit::Limit;
 use super::run::Trace;
 use super::scene::Scene;
@@ -37,6 +39,9 @@ pub fn figures(
     for (i, method) in study.methods.iter().enumerate() {
         let stem: String = method.name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
         figures.push((stem, over_time(&method.name, &conditions, scene, limit, &first[i], end)));
+    }
+    if study.navigate > 0 {
+        figures.push(("drift".into(), drift(title, &conditions, study, scene, first, end)));
     }
     if study.runs > 2 {
         figures.push(("ends".into(), ends(title, &conditions, study, totals)));
@@ -113,6 +118,34 @@ fn over_time(
             .with(Series::line("error", curve).colour(Colour::palette(0)))
             .with(Series::line("± analytic limit", law(1.0)).style(Style::Dotted).colour(Colour::GREY))
             .with(Series::line("", law(-1.0)).style(Style::Dotted).colour(Colour::GREY));
+        figure = figure.panel(panel);
+    }
+    figure
+}
+
+/// Where navigation leads that begins with what each method has found; the first run.
+fn drift(
+    title: &str,
+    conditions: &str,
+    study: &AlignStudy,
+    scene: &Scene,
+    first: &[Trace],
+    end: usize,
+) -> Figure {
+    let mut figure = Figure::new(format!("{title}: position afterwards"), Axis::time("time"))
+        .subtitle(format!("{conditions}; free inertial, the first run"));
+    let rows = |trace: &'_ Trace| -> Vec<(f64, Vec3<T>)> {
+        let from = |k: u64| scene.time(k - scene.samples);
+        scene.rows[end..].iter().zip(&trace.rows[end..]).map(|(&k, row)| (from(k), row.error.dr)).collect()
+    };
+    let sizes = first.iter().flat_map(rows).flat_map(|(_, dr)| [dr[0].abs(), dr[1].abs()]);
+    let shown = Quantity::Length.shown(sizes.filter(|x| x.is_finite()).fold(0.0, f64::max));
+    for (axis, label) in ["north", "east"].iter().enumerate() {
+        let mut panel = Panel::new(Axis::linear(format!("{label} ({})", shown.symbol)));
+        for (i, (method, trace)) in study.methods.iter().zip(first).enumerate() {
+            let curve = rows(trace).into_iter().map(|(t, dr)| [t, dr[axis] * shown.per_si]);
+            panel = panel.with(Series::line(&method.name, curve).colour(Colour::palette(i)));
+        }
         figure = figure.panel(panel);
     }
     figure
