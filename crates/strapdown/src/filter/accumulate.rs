@@ -6,7 +6,7 @@ use schuler_frames::{T, Vec3};
 use schuler_imu::{Instrument, Truth};
 
 use super::block::Block;
-use super::gather::{Columns, STEPS, Waiting, gather, middles};
+use super::gather::{Columns, STEPS, Sums, Waiting, add, gather, middles};
 use super::small_process::SmallStep;
 use super::{Model, Propagation};
 use crate::{ErrorDynamics, Increments, Pva};
@@ -39,13 +39,10 @@ pub struct Accumulator<const N: usize> {
     waiting: Waiting,
     /// Length so far.
     pub(super) t: f64,
-    /// Integral of f_t, and its integral.
-    pub(super) m0: Vector3<f64>,
-    pub(super) m1: Vector3<f64>,
+    /// Integral of f_t, its integral, and the integral of C.
+    pub(super) sums: Sums,
     /// Integral of the velocity.
     pub(super) v0: Vec3<T>,
-    /// Integral of C.
-    pub(super) c0: Matrix3<f64>,
     /// Integrals of the densities of white noise in t, gyro and accelerometer, where they depend on the attitude.
     pub(super) white: [Matrix3<f64>; 2],
     /// White densities that are the same along all axes and whatever the input.
@@ -60,7 +57,14 @@ pub struct Accumulator<const N: usize> {
     push_at_start: [[f64; N]; 3],
     /// Columns of blocks that change with the input, blocks of two states, white noise that is not the same on all axes:
     /// whether there are any. Steps are then gathered one by one.
-    special: bool,
+    pub(super) special: bool,
+    /// Column of each source state where that is always the same.
+    pub(super) enters: [[f64; N]; 3],
+    /// Covariance of each source state, over one interval, with those integrals of its coefficient that enter position,
+    /// velocity and attitude.
+    pub(super) with_integrals: [[f64; N]; 3],
+    /// Whether a driven block behaves as the driven one before it, on another axis of the same instrument.
+    pub(super) as_before: [bool; N],
     /// Each block over one step, and over one interval, of the lengths that came last.
     of_step: [Option<SmallStep>; N],
     dt: f64,
@@ -78,10 +82,8 @@ impl<const N: usize> Accumulator<N> {
             end: *pva,
             waiting: Waiting::new(pva.c_tb.as_quaternion()),
             t: 0.0,
-            m0: Vector3::zeros(),
-            m1: Vector3::zeros(),
+            sums: Sums::default(),
             v0: Vec3::ZERO,
-            c0: Matrix3::zeros(),
             white: [Matrix3::zeros(); 2],
             isotropic: Instrument::ALL.map(|instrument| model.isotropic(instrument)),
             columns: Columns::NONE,
@@ -90,6 +92,9 @@ impl<const N: usize> Accumulator<N> {
             push_at_start: [[0.0; N]; 3],
             special: model.blocks().any(|b| b.len == 2 || b.column.is_none())
                 || Instrument::ALL.iter().any(|i| model.isotropic(*i).is_none()),
+            enters: [[0.0; N]; 3],
+            with_integrals: [[0.0; N]; 3],
+            as_before: [false; N],
             of_step: [None; N],
             dt: 0.0,
             of_interval: [None; N],
@@ -101,6 +106,11 @@ impl<const N: usize> Accumulator<N> {
             for s in block.states() {
                 new.columns.gyro[s - first] =
                     if block.instrument() == Some(Instrument::Gyro) { 1.0 } else { 0.0 };
+                if let (Some(column), Some(_)) = (block.column, block.instrument()) {
+                    for axis in 0..3 {
+                        new.enters[axis][s - first] = column[axis];
+                    }
+                }
             }
         }
         new.begin(model, pva);
@@ -112,7 +122,7 @@ impl<const N: usize> Accumulator<N> {
         (self.start, self.end) = (*pva, *pva);
         self.waiting.begin(pva.c_tb.as_quaternion());
         self.t = 0.0;
-        (self.m0, self.m1, self.c0) = (Vector3::zeros(), Vector3::zeros(), Matrix3::zeros());
+        self.sums = Sums::default();
         (self.v0, self.white) = (Vec3::ZERO, [Matrix3::zeros(); 2]);
         let sources = model.len() - model.nav_len();
         for rows in [&mut self.columns.phi, &mut self.columns.dv, &mut self.columns.dr] {
@@ -184,26 +194,14 @@ impl<const N: usize> Accumulator<N> {
     }
 
     /// Gathers the steps that wait.
-    #[inline(never)]
     fn gather(&mut self, model: &Model<N>) {
         let (level, sources) = (self.level, model.len() - model.nav_len());
-        let (waiting, columns) = (&mut self.waiting, &mut self.columns);
+        let (waiting, columns, sums) = (&mut self.waiting, &mut self.columns, &mut self.sums);
         dispatch!(level, simd => {
             middles(simd, waiting);
+            add(simd, sums, waiting);
             gather(simd, columns, waiting, sources);
         });
-        let steps = &self.waiting;
-        for k in 0..steps.count.min(STEPS) {
-            let dt = steps.dt[k];
-            for i in 0..3 {
-                let a = steps.a[i][k];
-                self.m1[i] += (self.m0[i] + a * 0.5) * dt;
-                self.m0[i] += a;
-                for j in 0..3 {
-                    self.c0[(i, j)] += steps.c[i][j][k] * dt;
-                }
-            }
-        }
         self.waiting.done();
     }
 
@@ -296,10 +294,7 @@ impl<const N: usize> Accumulator<N> {
         if self.t > 0.0 {
             self.gather(model);
             if (self.t - self.interval).abs() > 1e-12 * self.t {
-                self.interval = self.t;
-                for (slot, block) in self.of_interval.iter_mut().zip(model.blocks()) {
-                    *slot = Some(SmallStep::new(block, self.t));
-                }
+                self.fit_interval(model);
             }
             self.finish(model, out);
         } else {
@@ -307,6 +302,34 @@ impl<const N: usize> Accumulator<N> {
         }
         let end = self.end;
         self.begin(model, &end);
+    }
+}
+
+impl<const N: usize> Accumulator<N> {
+    /// Makes ready for intervals of another length.
+    #[cold]
+    fn fit_interval(&mut self, model: &Model<N>) {
+        self.interval = self.t;
+        let first = model.nav_len();
+        let mut before = None;
+        for (number, block) in model.blocks().enumerate() {
+            let step = SmallStep::new(block, self.t);
+            if let (Some(instrument), true) = (block.instrument(), block.is_driven()) {
+                let z = match instrument {
+                    Instrument::Gyro => [0, 1, 2],
+                    Instrument::Accel => [1, 2, 2],
+                };
+                for (k, s) in block.states().enumerate() {
+                    for (kind, z) in z.into_iter().enumerate() {
+                        self.with_integrals[kind][s - first] = step.q[(z, 3 + k)];
+                    }
+                }
+                let now = (instrument, step.q.fixed_view::<3, 3>(0, 0).into_owned());
+                self.as_before[number] = before == Some(now);
+                before = Some(now);
+            }
+            self.of_interval[number] = Some(step);
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! The kernels of gathering: several IMU steps at a time, in the widest lanes of the machine.
 
-use fearless_simd::{Simd, SimdBase, SimdFloat, f64x8};
+use fearless_simd::{Simd, SimdBase, SimdFloat, SimdSplit, f64x8};
 
 /// IMU steps that are gathered together.
 pub(crate) const STEPS: usize = 8;
@@ -36,7 +36,7 @@ impl Waiting {
     /// Begins anew with the attitude `q`.
     #[inline]
     pub fn begin(&mut self, q: [f64; 4]) {
-        self.count = 0;
+        self.clear();
         for (row, q) in self.q.iter_mut().zip(q) {
             row[0] = q;
         }
@@ -62,7 +62,15 @@ impl Waiting {
         for row in &mut self.q {
             row[0] = row[self.count];
         }
+        self.clear();
+    }
+
+    /// Lanes of steps to come gain nothing in no time.
+    #[inline]
+    fn clear(&mut self) {
         self.count = 0;
+        self.dt = [0.0; STEPS];
+        self.dv = [[0.0; STEPS]; 3];
     }
 }
 
@@ -94,6 +102,44 @@ pub(crate) fn middles<S: Simd>(simd: S, waiting: &mut Waiting) {
         }
         (c[i][0] * dv[0] + c[i][1] * dv[1] + c[i][2] * dv[2]).store_slice(&mut waiting.a[i]);
     }
+}
+
+/// Sums over the steps: of the velocity gained, of its integral, and of the attitude times time.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Sums {
+    pub gained: [f64; 3],
+    pub moved: [f64; 3],
+    pub turned: [[f64; 3]; 3],
+}
+
+/// Adds the steps that wait, whose middles are known.
+#[inline(always)]
+pub(crate) fn add<S: Simd>(simd: S, sums: &mut Sums, steps: &Waiting) {
+    // Time from the middle of each step to the end of all.
+    let mut rest = [0.0; STEPS];
+    let mut after = 0.0;
+    for k in (0..STEPS).rev() {
+        rest[k] = after + 0.5 * steps.dt[k];
+        after += steps.dt[k];
+    }
+    let (rest, dt) = (f64x8::from_slice(simd, &rest), f64x8::from_slice(simd, &steps.dt));
+    for i in 0..3 {
+        let a = f64x8::from_slice(simd, &steps.a[i]);
+        sums.moved[i] += sums.gained[i] * after + total(a * rest);
+        sums.gained[i] += total(a);
+        for j in 0..3 {
+            sums.turned[i][j] += total(f64x8::from_slice(simd, &steps.c[i][j]) * dt);
+        }
+    }
+}
+
+/// Sum of all lanes, in the same order whatever the machine.
+#[inline(always)]
+fn total<S: Simd>(x: f64x8<S>) -> f64 {
+    let (low, high) = x.split();
+    let (low, high) = (low + high).split();
+    let two = low + high;
+    two[0] + two[1]
 }
 
 /// Attitude, velocity and position error that a unit of each source state has made so far, by axis.
@@ -185,7 +231,7 @@ fn piece<S: Simd, const N: usize>(simd: S, columns: &mut Columns<N>, steps: &Wai
 
 /// The first lanes of `x`, filled up with zeros where it is shorter.
 #[inline(always)]
-fn load<S: Simd>(simd: S, x: &[f64]) -> S::f64s {
+pub(super) fn load<S: Simd>(simd: S, x: &[f64]) -> S::f64s {
     let lanes = S::f64s::LEN;
     if x.len() >= lanes {
         return S::f64s::from_slice(simd, &x[..lanes]);
@@ -196,7 +242,7 @@ fn load<S: Simd>(simd: S, x: &[f64]) -> S::f64s {
 }
 
 #[inline(always)]
-fn store<S: Simd>(value: S::f64s, x: &mut [f64]) {
+pub(super) fn store<S: Simd>(value: S::f64s, x: &mut [f64]) {
     let lanes = S::f64s::LEN;
     if x.len() >= lanes {
         return value.store_slice(&mut x[..lanes]);
