@@ -56,6 +56,7 @@ pub mod measurement;
 mod model;
 mod observability;
 mod observation;
+mod padded;
 mod propagation;
 mod reset;
 mod row;

@@ -2,11 +2,11 @@
 
 use fearless_simd::{Level, dispatch};
 use nalgebra::{Matrix3, Vector3};
-use schuler_frames::{B, Rot, T, Vec3};
+use schuler_frames::{T, Vec3};
 use schuler_imu::{Instrument, Truth};
 
 use super::block::Block;
-use super::gather::{Columns, gather};
+use super::gather::{Columns, STEPS, Sums, Waiting, add, gather, middles};
 use super::small_process::SmallStep;
 use super::{Model, Propagation};
 use crate::{ErrorDynamics, Increments, Pva};
@@ -35,15 +35,14 @@ pub struct Accumulator<const N: usize> {
     pub(super) dynamics: ErrorDynamics,
     pub(super) start: Pva,
     pub(super) end: Pva,
+    /// The last steps, not yet gathered.
+    waiting: Waiting,
     /// Length so far.
     pub(super) t: f64,
-    /// Integral of f_t, and its integral.
-    pub(super) m0: Vector3<f64>,
-    pub(super) m1: Vector3<f64>,
+    /// Integral of f_t, its integral, and the integral of C.
+    pub(super) sums: Sums,
     /// Integral of the velocity.
     pub(super) v0: Vec3<T>,
-    /// Integral of C.
-    pub(super) c0: Matrix3<f64>,
     /// Integrals of the densities of white noise in t, gyro and accelerometer, where they depend on the attitude.
     pub(super) white: [Matrix3<f64>; 2],
     /// White densities that are the same along all axes and whatever the input.
@@ -56,8 +55,16 @@ pub struct Accumulator<const N: usize> {
     weight: [f64; N],
     /// What each state pushes in the first step.
     push_at_start: [[f64; N]; 3],
-    /// Columns of blocks that change with the input, and blocks of two states: whether there are any.
-    special: bool,
+    /// Columns of blocks that change with the input, blocks of two states, white noise that is not the same on all axes:
+    /// whether there are any. Steps are then gathered one by one.
+    pub(super) special: bool,
+    /// Column of each source state where that is always the same.
+    pub(super) enters: [[f64; N]; 3],
+    /// Covariance of each source state, over one interval, with those integrals of its coefficient that enter position,
+    /// velocity and attitude.
+    pub(super) with_integrals: [[f64; N]; 3],
+    /// Whether a driven block behaves as the driven one before it, on another axis of the same instrument.
+    pub(super) as_before: [bool; N],
     /// Each block over one step, and over one interval, of the lengths that came last.
     of_step: [Option<SmallStep>; N],
     dt: f64,
@@ -73,18 +80,21 @@ impl<const N: usize> Accumulator<N> {
             dynamics,
             start: *pva,
             end: *pva,
+            waiting: Waiting::new(pva.c_tb.as_quaternion()),
             t: 0.0,
-            m0: Vector3::zeros(),
-            m1: Vector3::zeros(),
+            sums: Sums::default(),
             v0: Vec3::ZERO,
-            c0: Matrix3::zeros(),
             white: [Matrix3::zeros(); 2],
             isotropic: Instrument::ALL.map(|instrument| model.isotropic(instrument)),
             columns: Columns::NONE,
             way: [[0.0; 3]; N],
             weight: [0.0; N],
             push_at_start: [[0.0; N]; 3],
-            special: model.blocks().any(|b| b.len == 2 || b.column.is_none()),
+            special: model.blocks().any(|b| b.len == 2 || b.column.is_none())
+                || Instrument::ALL.iter().any(|i| model.isotropic(*i).is_none()),
+            enters: [[0.0; N]; 3],
+            with_integrals: [[0.0; N]; 3],
+            as_before: [false; N],
             of_step: [None; N],
             dt: 0.0,
             of_interval: [None; N],
@@ -96,6 +106,11 @@ impl<const N: usize> Accumulator<N> {
             for s in block.states() {
                 new.columns.gyro[s - first] =
                     if block.instrument() == Some(Instrument::Gyro) { 1.0 } else { 0.0 };
+                if let (Some(column), Some(_)) = (block.column, block.instrument()) {
+                    for axis in 0..3 {
+                        new.enters[axis][s - first] = column[axis];
+                    }
+                }
             }
         }
         new.begin(model, pva);
@@ -105,8 +120,9 @@ impl<const N: usize> Accumulator<N> {
     /// Begins anew with the navigator at `pva`: after a correction of it.
     pub fn begin(&mut self, model: &Model<N>, pva: &Pva) {
         (self.start, self.end) = (*pva, *pva);
+        self.waiting.begin(pva.c_tb.as_quaternion());
         self.t = 0.0;
-        (self.m0, self.m1, self.c0) = (Vector3::zeros(), Vector3::zeros(), Matrix3::zeros());
+        self.sums = Sums::default();
         (self.v0, self.white) = (Vec3::ZERO, [Matrix3::zeros(); 2]);
         let sources = model.len() - model.nav_len();
         for rows in [&mut self.columns.phi, &mut self.columns.dv, &mut self.columns.dr] {
@@ -161,33 +177,32 @@ impl<const N: usize> Accumulator<N> {
         increments: &Increments,
         dt: f64,
     ) {
-        let first = model.nav_len();
         // A clock that jitters by a millionth fades nothing by another amount.
         if (dt - self.dt).abs() > 1e-6 * dt {
+            self.gather(model);
             self.fit_to(model, dt);
         }
-        let rows = midway(self.end.c_tb, pva.c_tb);
         self.v0 += (self.end.v_t + pva.v_t) * (0.5 * dt);
         self.end = *pva;
-        let [x, y, z] = increments.dv.as_array();
-        let a: [f64; 3] = core::array::from_fn(|i| rows[i][0] * x + rows[i][1] * y + rows[i][2] * z);
-        if self.special || self.isotropic.contains(&None) {
-            self.specials(model, seen, increments, &rows, dt);
-        }
-        let (level, sources) = (self.level, model.len() - first);
-        let columns = &mut self.columns;
-        dispatch!(level, simd => gather(simd, columns, &rows, a, dt, sources));
-        if self.special {
-            self.fade_pairs(model, first);
-        }
-        for i in 0..3 {
-            self.m1[i] += (self.m0[i] + a[i] * 0.5) * dt;
-            self.m0[i] += a[i];
-            for j in 0..3 {
-                self.c0[(i, j)] += rows[i][j] * dt;
-            }
-        }
         self.t += dt;
+        self.waiting.push(pva.c_tb.as_quaternion(), increments.dv.as_array(), dt);
+        if self.special {
+            self.specials(model, seen, increments, dt);
+        } else if self.waiting.count == STEPS {
+            self.gather(model);
+        }
+    }
+
+    /// Gathers the steps that wait.
+    fn gather(&mut self, model: &Model<N>) {
+        let (level, sources) = (self.level, model.len() - model.nav_len());
+        let (waiting, columns, sums) = (&mut self.waiting, &mut self.columns, &mut self.sums);
+        dispatch!(level, simd => {
+            middles(simd, waiting);
+            add(simd, sums, waiting);
+            gather(simd, columns, waiting, sources);
+        });
+        self.waiting.done();
     }
 
     /// Makes ready for steps of another length.
@@ -223,21 +238,17 @@ impl<const N: usize> Accumulator<N> {
         }
     }
 
-    /// What depends on the input or on the attitude by itself: columns, and white noise that is not the same on all axes.
+    /// A step, which waits alone, where something depends on the input or on the attitude by itself: columns, and white noise
+    /// that is not the same on all axes.
     #[inline(never)]
-    fn specials(
-        &mut self,
-        model: &Model<N>,
-        seen: Option<&Truth>,
-        increments: &Increments,
-        rows: &[[f64; 3]; 3],
-        dt: f64,
-    ) {
+    fn specials(&mut self, model: &Model<N>, seen: Option<&Truth>, increments: &Increments, dt: f64) {
         let seen = seen
             .copied()
             .unwrap_or_else(|| Truth::increments(increments.dtheta.as_array(), increments.dv.as_array()));
         let inputs = model.inputs(&seen, dt);
-        let c = Matrix3::from_fn(|i, j| rows[i][j]);
+        let (level, waiting) = (self.level, &mut self.waiting);
+        dispatch!(level, simd => middles(simd, waiting));
+        let c = Matrix3::from_fn(|i, j| self.waiting.c[i][j][0]);
         for (k, instrument) in Instrument::ALL.into_iter().enumerate() {
             if self.isotropic[k].is_none() {
                 self.white[k] += c * model.white(instrument, &inputs) * c.transpose() * dt;
@@ -253,10 +264,11 @@ impl<const N: usize> Accumulator<N> {
                 self.set_push(block, model.nav_len(), column, &step);
             }
         }
+        self.gather(model);
+        self.fade_pairs(model, model.nav_len());
     }
 
     /// The weights after a step, of blocks that the kernel does not fade.
-    #[inline(never)]
     fn fade_pairs(&mut self, model: &Model<N>, first: usize) {
         for (number, block) in model.blocks().enumerate().filter(|(_, b)| b.len == 2 || b.column.is_none()) {
             let Some(step) = self.of_step[number] else { continue };
@@ -280,11 +292,9 @@ impl<const N: usize> Accumulator<N> {
     /// As [`Accumulator::close`], into a propagation that was made for the same model.
     pub fn close_into(&mut self, model: &Model<N>, out: &mut Propagation<N>) {
         if self.t > 0.0 {
+            self.gather(model);
             if (self.t - self.interval).abs() > 1e-12 * self.t {
-                self.interval = self.t;
-                for (slot, block) in self.of_interval.iter_mut().zip(model.blocks()) {
-                    *slot = Some(SmallStep::new(block, self.t));
-                }
+                self.fit_interval(model);
             }
             self.finish(model, out);
         } else {
@@ -295,25 +305,37 @@ impl<const N: usize> Accumulator<N> {
     }
 }
 
+impl<const N: usize> Accumulator<N> {
+    /// Makes ready for intervals of another length.
+    #[cold]
+    fn fit_interval(&mut self, model: &Model<N>) {
+        self.interval = self.t;
+        let first = model.nav_len();
+        let mut before = None;
+        for (number, block) in model.blocks().enumerate() {
+            let step = SmallStep::new(block, self.t);
+            if let (Some(instrument), true) = (block.instrument(), block.is_driven()) {
+                let z = match instrument {
+                    Instrument::Gyro => [0, 1, 2],
+                    Instrument::Accel => [1, 2, 2],
+                };
+                for (k, s) in block.states().enumerate() {
+                    for (kind, z) in z.into_iter().enumerate() {
+                        self.with_integrals[kind][s - first] = step.q[(z, 3 + k)];
+                    }
+                }
+                let now = (instrument, step.q.fixed_view::<3, 3>(0, 0).into_owned());
+                self.as_before[number] = before == Some(now);
+                before = Some(now);
+            }
+            self.of_interval[number] = Some(step);
+        }
+    }
+}
+
 /// The row of weights of a block times a matrix of it.
 #[inline]
 fn carried<const N: usize>(block: &Block, weight: &[f64; N], m: &[[f64; 2]; 2]) -> [f64; 2] {
     let w = |k: usize| if k < block.len { weight[block.first + k] } else { 0.0 };
     [w(0) * m[0][0] + w(1) * m[1][0], w(0) * m[0][1] + w(1) * m[1][1]]
-}
-
-/// The attitude half way between two near ones: the sum of their quaternions, made a unit; by rows.
-#[inline]
-fn midway(a: Rot<T, B>, b: Rot<T, B>) -> [[f64; 3]; 3] {
-    let (a, b) = (a.as_quaternion(), b.as_quaternion());
-    // q and -q are the same attitude.
-    let sign = if a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] < 0.0 { -1.0 } else { 1.0 };
-    let [w, x, y, z]: [f64; 4] = core::array::from_fn(|k| a[k] + sign * b[k]);
-    let k = 2.0 / (w * w + x * x + y * y + z * z);
-    let (x2, y2, z2) = (k * x, k * y, k * z);
-    [
-        [1.0 - y * y2 - z * z2, x * y2 - w * z2, x * z2 + w * y2],
-        [x * y2 + w * z2, 1.0 - x * x2 - z * z2, y * z2 - w * x2],
-        [x * z2 - w * y2, y * z2 + w * x2, 1.0 - x * x2 - y * y2],
-    ]
 }

@@ -1,47 +1,43 @@
 //! Transition and process noise of an interval from what was gathered over it.
 
-use fearless_simd::dispatch;
-use nalgebra::{Matrix3, SMatrix, Vector3};
+use fearless_simd::{Simd, SimdBase, SimdFrom, dispatch, f64x4};
+use nalgebra::{Matrix3, Vector3};
 use schuler_frames::{B, Geodetic, T, Vec3};
 use schuler_imu::Instrument;
 
+use super::gather::{STEPS, load, store};
+use super::padded::{Columns3, Padded};
 use super::{Accumulator, Model, Propagation};
 use crate::{Pva, Vertical};
 
-type Nine = SMatrix<f64, 9, 9>;
-
 /// The slow dynamics over half an interval, by blocks; those that are not there are zero.
 struct Slow {
-    rr: Matrix3<f64>,
-    vr: Matrix3<f64>,
-    vv: Matrix3<f64>,
-    pr: Matrix3<f64>,
-    pv: Matrix3<f64>,
-    pp: Matrix3<f64>,
+    rr: Columns3,
+    vr: Columns3,
+    vv: Columns3,
+    pr: Columns3,
+    pv: Columns3,
+    pp: Columns3,
 }
 
 impl<const N: usize> Accumulator<N> {
     pub(super) fn finish(&self, model: &Model<N>, out: &mut Propagation<N>) {
         let t = self.t;
         out.dt = t;
-        let force = self.m0 / t;
+        let force = Vector3::from(self.sums.gained) / t;
         let slow = self.slow(model, force);
-        // Nothing here asks for lanes by itself, but small matrices gain from wide ones.
         let level = self.level;
-        dispatch!(level, _simd => self.assemble(model, &slow, force, out));
+        dispatch!(level, simd => {
+            self.transition(simd, model, &slow, out);
+            self.couplings(simd, model, &slow, out);
+            self.noise(simd, model, force, out);
+        });
     }
 
+    /// Zero where the channel down is held and nothing drives it, else one.
     #[inline(always)]
-    fn assemble(&self, model: &Model<N>, slow: &Slow, force: Vector3<f64>, out: &mut Propagation<N>) {
-        self.transition(model, slow, out);
-        self.couplings(model, slow, out);
-        self.noise(model, force, out);
-    }
-
-    /// One where the row down is driven by nothing.
-    #[inline(always)]
-    fn free(&self) -> Vector3<f64> {
-        Vector3::new(1.0, 1.0, if self.dynamics.vertical == Vertical::Held { 0.0 } else { 1.0 })
+    fn down(&self) -> f64 {
+        if self.dynamics.vertical == Vertical::Held { 0.0 } else { 1.0 }
     }
 
     /// Dynamics without the fast part, in the middle of the interval, errors that were left out of the model being zero.
@@ -58,7 +54,7 @@ impl<const N: usize> Accumulator<N> {
         };
         let f_b: Vec3<B> = b.c_tb.inverse() * Vec3::<T>::claim([force[0], force[1], force[2]]);
         let mut s = model.form().system(&self.dynamics, &middle, f_b).f;
-        for (axis, free) in self.free().iter().enumerate() {
+        for (axis, free) in [1.0, 1.0, self.down()].into_iter().enumerate() {
             s[(axis, 3 + axis)] -= free;
         }
         if model.nav_len() < 9 {
@@ -68,7 +64,12 @@ impl<const N: usize> Accumulator<N> {
             }
         }
         let half = 0.5 * self.t;
-        let block = |row: usize, column: usize| s.fixed_view::<3, 3>(row, column) * half;
+        let block = |row: usize, column: usize| {
+            core::array::from_fn(|j| {
+                let x = &s.data.0[column + j];
+                [x[row] * half, x[row + 1] * half, x[row + 2] * half, 0.0]
+            })
+        };
         Slow {
             rr: block(0, 0),
             vr: block(3, 0),
@@ -86,78 +87,116 @@ impl<const N: usize> Accumulator<N> {
     /// itself are kept where they turn or damp, and the third term of each Schuler loop (velocity, level, velocity and position,
     /// velocity, position), which counts in the long run: it is (w_s T)²/6 of the first.
     #[inline(always)]
-    fn transition(&self, model: &Model<N>, x: &Slow, out: &mut Propagation<N>) {
-        let t = self.t;
-        let free = Matrix3::from_diagonal(&self.free());
-        let (j, m) = (free * self.m1.cross_matrix(), free * self.m0.cross_matrix());
-        let before = free * self.m1.cross_matrix() * (2.0 / t);
-        let after = free * (self.m0 * t - self.m1).cross_matrix() * (2.0 / t);
-        // T where position moves with velocity.
-        let tv = free * t;
-        let id = Matrix3::identity();
-        let mut phi = Nine::zeros();
-        let mut block = |row: usize, column: usize, b: Matrix3<f64>| {
-            phi.fixed_view_mut::<3, 3>(row, column).copy_from(&b);
-        };
+    fn transition<S: Simd>(&self, simd: S, model: &Model<N>, slow: &Slow, out: &mut Propagation<N>) {
+        let (t, down) = (self.t, self.down());
+        let (gained, moved) = (Vector3::from(self.sums.gained), Vector3::from(self.sums.moved));
+        let free = f64x4::simd_from(simd, [1.0, 1.0, down, 0.0]);
+        let j = Padded::cross(simd, moved).rows(free);
+        let m = Padded::cross(simd, gained).rows(free);
+        let before = j * (2.0 / t);
+        let after = Padded::cross(simd, gained * t - moved).rows(free) * (2.0 / t);
         let k = j * (2.0 / 3.0);
-        block(0, 0, id + (x.rr + x.rr * x.rr) * 2.0 + tv * x.vr + k * x.pr);
-        block(0, 3, tv + x.rr * tv + tv * x.vv + k * x.pv + tv * x.vr * tv * (1.0 / 3.0));
-        block(0, 6, j + x.rr * k + k * x.pp + tv * x.vv * m * (1.0 / 3.0));
-        block(3, 0, (x.vr + x.vr * x.rr + x.vv * x.vr) * 2.0 + after * x.pr + x.vr * tv * x.vr * (2.0 / 3.0));
-        block(3, 3, id + (x.vv + x.vv * x.vv) * 2.0 + x.vr * tv + after * x.pv);
-        let round = x.pv * m * (1.0 / 3.0);
-        block(3, 6, m + x.vr * k + x.vv * before + after * x.pp + m * round);
-        block(6, 0, x.pr * 2.0);
-        block(6, 3, x.pv * 2.0 + x.pr * tv + round * x.pv * 2.0);
-        block(6, 6, id + (x.pp + x.pp * x.pp) * 2.0 + x.pr * k + x.pv * before);
-        for (column, &full_j) in model.full().iter().enumerate() {
-            for (i, &full_i) in model.full().iter().enumerate() {
-                out.phi_n[column][i] = phi[(full_i, full_j)];
+        let (rr, vr) = (Padded::new(simd, &slow.rr), Padded::new(simd, &slow.vr));
+        let (vv, pr) = (Padded::new(simd, &slow.vv), Padded::new(simd, &slow.pr));
+        let (pv, pp) = (Padded::new(simd, &slow.pv), Padded::new(simd, &slow.pp));
+        // T where position moves with velocity, from the left and from the right.
+        let to = free * t;
+        let from = [t, t, t * down];
+        let tv_vr = vr.rows(to);
+        let round = pv * m * (1.0 / 3.0);
+        let id = Padded::diagonal(simd, [1.0; 3]);
+        let by_r = [
+            id + (rr + rr * rr) * 2.0 + tv_vr + k * pr,
+            (vr + vr * rr + vv * vr) * 2.0 + after * pr + vr * tv_vr * (2.0 / 3.0),
+            pr * 2.0,
+        ];
+        let by_v = [
+            Padded::diagonal(simd, from)
+                + rr.scaled(from)
+                + vv.rows(to)
+                + k * pv
+                + tv_vr.scaled(from) * (1.0 / 3.0),
+            id + (vv + vv * vv) * 2.0 + vr.scaled(from) + after * pv,
+            pv * 2.0 + pr.scaled(from) + round * pv * 2.0,
+        ];
+        let by_p = [
+            j + rr * k + k * pp + (vv * m).rows(to) * (1.0 / 3.0),
+            m + vr * k + vv * before + after * pp + m * round,
+            id + (pp + pp * pp) * 2.0 + pr * k + pv * before,
+        ];
+        if model.nav_len() == 9 {
+            for (three, blocks) in out.phi_n[..9].chunks_exact_mut(3).zip([by_r, by_v, by_p]) {
+                for (j, column) in three.iter_mut().enumerate() {
+                    for (i, block) in blocks.iter().enumerate() {
+                        // The fourth lane is overwritten by the next block.
+                        block.columns()[j].store_slice(&mut column[3 * i..3 * i + 4]);
+                    }
+                }
+            }
+        } else {
+            let blocks = [by_r, by_v, by_p];
+            for (column, &full_j) in model.full().iter().enumerate() {
+                for (i, &full_i) in model.full().iter().enumerate() {
+                    out.phi_n[column][i] = blocks[full_j / 3][full_i / 3].columns()[full_j % 3][full_i % 3];
+                }
             }
         }
     }
 
     /// Phi_ns = E F_ns, with one S as in `transition`: ∫ v dt is r, and of r two thirds.
     #[inline(always)]
-    fn couplings(&self, model: &Model<N>, x: &Slow, out: &mut Propagation<N>) {
-        let (first, free, per_t) = (model.nav_len(), self.free(), 2.0 / self.t);
-        let all = first == 9;
-        for s in first..model.len() {
-            let of = |rows: &[[f64; N]; 3]| {
-                Vector3::new(rows[0][s - first], rows[1][s - first], rows[2][s - first])
-            };
-            let r = of(&self.columns.dr).component_mul(&free);
-            let v = of(&self.columns.dv).component_mul(&free);
-            let p = of(&self.columns.phi);
-            let (of_v, of_r) = (r * per_t, r * (2.0 / 3.0));
-            let late = (x.vv * v).component_mul(&free) * (self.t / 3.0);
-            let moved = [
-                r + x.rr * of_r + late,
-                v + x.vr * of_r + x.vv * of_v,
-                p + x.pr * of_r + x.pv * of_v + x.pp * p,
-            ];
-            let column = &mut out.phi_n[s];
-            if all {
-                for k in 0..9 {
-                    column[k] = moved[k / 3][k % 3];
-                }
-            } else {
-                for (i, &full) in model.full().iter().enumerate() {
-                    column[i] = moved[full / 3][full % 3];
+    fn couplings<S: Simd>(&self, simd: S, model: &Model<N>, x: &Slow, out: &mut Propagation<N>) {
+        let (nav, t) = (model.nav_len(), self.t);
+        let sources = model.len() - nav;
+        let free = [1.0, 1.0, self.down()];
+        let mut first = 0;
+        while first < sources {
+            let (mut r, mut v) =
+                (three::<S, N>(simd, &self.columns.dr, first), three::<S, N>(simd, &self.columns.dv, first));
+            let p = three::<S, N>(simd, &self.columns.phi, first);
+            (r[2], v[2]) = (r[2] * free[2], v[2] * free[2]);
+            let (mut of_v, mut of_r) = (r, r);
+            for i in 0..3 {
+                (of_v[i], of_r[i]) = (r[i] * (2.0 / t), r[i] * (2.0 / 3.0));
+            }
+            let mut moved = [[0.0; STEPS]; 9];
+            for i in 0..3 {
+                let late = times::<S>(&x.vv, &v, i) * (free[i] * t / 3.0);
+                let position = r[i] + times::<S>(&x.rr, &of_r, i) + late;
+                let velocity = v[i] + times::<S>(&x.vr, &of_r, i) + times::<S>(&x.vv, &of_v, i);
+                let attitude = p[i]
+                    + times::<S>(&x.pr, &of_r, i)
+                    + times::<S>(&x.pv, &of_v, i)
+                    + times::<S>(&x.pp, &p, i);
+                store::<S>(position, &mut moved[i]);
+                store::<S>(velocity, &mut moved[3 + i]);
+                store::<S>(attitude, &mut moved[6 + i]);
+            }
+            let end = (first + S::f64s::LEN).min(sources);
+            for (lane, column) in out.phi_n[nav + first..nav + end].iter_mut().enumerate() {
+                if nav == 9 {
+                    for i in 0..9 {
+                        column[i] = moved[i][lane % STEPS];
+                    }
+                } else {
+                    for (i, &full) in model.full().iter().enumerate() {
+                        column[i] = moved[full][lane];
+                    }
                 }
             }
+            first = end;
         }
     }
 
     /// Noise through the fast part, the force being constant.
     #[inline(always)]
-    fn noise(&self, model: &Model<N>, force: Vector3<f64>, out: &mut Propagation<N>) {
-        let t = self.t;
-        let free = self.free();
-        let f = Matrix3::from_diagonal(&free) * force.cross_matrix();
-        let mut q = self.white_noise(model, &f);
-        let axes = self.c0 / t;
-        let mut group = Group::default();
+    fn noise<S: Simd>(&self, simd: S, model: &Model<N>, force: Vector3<f64>, out: &mut Propagation<N>) {
+        let nav = model.nav_len();
+        let fast = Fast::new(simd, force, self.down());
+        let mut q = self.white_noise(simd, model, &fast);
+        let along = self.noise_of_sources(simd, model, force, out);
+        let mut group = None;
+        let mut spread = Padded::zero(simd);
         for (number, block) in model.blocks().enumerate().filter(|(_, b)| b.len > 0) {
             let Some(step) = &self.of_interval[number] else { continue };
             for (k, s) in block.states().enumerate() {
@@ -165,41 +204,101 @@ impl<const N: usize> Accumulator<N> {
                     out.set_source(s, l, step.phi[k][l], step.q[(3 + k, 3 + l)]);
                 }
             }
-            let (Some(instrument), true) = (block.instrument(), block.q != [[0.0; 2]; 2]) else { continue };
-            let along = match block.column {
-                Some(column) => axes * Vector3::from(column),
-                None => Vector3::from(self.way[number]) / t,
-            };
-            // Directions in which the integrals z3, z2, z1 of the coefficient enter position, velocity and attitude, and
-            // which integral that is.
-            let (reach, z) = match instrument {
-                Instrument::Gyro => ([-(f * along), -along], [0, 1, 2]),
-                Instrument::Accel => ([along.component_mul(&free), Vector3::zeros()], [1, 2, 2]),
-            };
-            for (k, s) in block.states().enumerate() {
-                for (i, &full) in model.full().iter().enumerate() {
-                    let kind = full / 3;
-                    out.q_n[i][s] = reach[kind / 2][full % 3] * step.q[(z[kind], 3 + k)];
+            let (Some(instrument), true) = (block.instrument(), block.is_driven()) else { continue };
+            if !self.as_before[number] {
+                if let Some((instrument, number)) = group.replace((instrument, number)) {
+                    self.spread_noise(&mut q, &fast, instrument, number, spread);
+                }
+                spread = Padded::zero(simd);
+            }
+            let s = block.first - nav;
+            spread.add_square(f64x4::simd_from(simd, [along[0][s], along[1][s], along[2][s], 0.0]));
+        }
+        if let Some((instrument, number)) = group {
+            self.spread_noise(&mut q, &fast, instrument, number, spread);
+        }
+        // Of a column on or above the diagonal, as it is the same as a row on or below.
+        let mut rows = [[0.0; 12]; 9];
+        let of_row = [
+            [Some(&q.rr), None, None],
+            [Some(&q.rv), Some(&q.vv), None],
+            [Some(&q.rp), Some(&q.vp), Some(&q.pp)],
+        ];
+        for (row, blocks) in rows.chunks_exact_mut(3).zip(of_row) {
+            for (j, row) in row.iter_mut().enumerate() {
+                for (i, block) in blocks.iter().enumerate() {
+                    if let Some(block) = block {
+                        block.columns()[j].store_slice(&mut row[3 * i..3 * i + 4]);
+                    }
                 }
             }
-            let integrals = step.q.fixed_view::<3, 3>(0, 0).into_owned();
-            if group.instrument != Some(instrument) || group.integrals != integrals {
-                group.add_to(&mut q, &f, &free);
-                group = Group { instrument: Some(instrument), integrals, spread: Matrix3::zeros() };
-            }
-            group.spread += along * along.transpose();
         }
-        group.add_to(&mut q, &f, &free);
-        for (i, &full_i) in model.full().iter().enumerate() {
-            for (j, &full_j) in model.full().iter().enumerate().skip(i) {
-                let value = q[(full_i, full_j)];
+        for i in 0..nav {
+            for j in 0..=i {
+                let value = if nav == 9 { rows[i][j] } else { rows[model.full()[i]][model.full()[j]] };
                 (out.q_n[i][j], out.q_n[j][i]) = (value, value);
             }
         }
     }
 
-    /// That of white noise, on and above the diagonal: with G, A, R the densities that drive attitude, velocity and position,
-    /// and F = [f ×],
+    /// Directions in t in which the coefficients of the source states enter, and their covariance with the navigation errors:
+    /// the integrals z3, z2, z1 of a coefficient enter position, velocity and attitude.
+    #[inline(always)]
+    fn noise_of_sources<S: Simd>(
+        &self,
+        simd: S,
+        model: &Model<N>,
+        force: Vector3<f64>,
+        out: &mut Propagation<N>,
+    ) -> [[f64; N]; 3] {
+        let (t, nav) = (self.t, model.nav_len());
+        let sources = model.len() - nav;
+        let free = [1.0, 1.0, self.down()];
+        let axes = &self.sums.turned;
+        let mut along = [[0.0; N]; 3];
+        let lanes = S::f64s::LEN;
+        for first in (0..sources).step_by(lanes) {
+            let enters = three::<S, N>(simd, &self.enters, first);
+            for i in 0..3 {
+                let d = enters[0] * axes[i][0] + enters[1] * axes[i][1] + enters[2] * axes[i][2];
+                store::<S>(d * (1.0 / t), &mut along[i][first..]);
+            }
+        }
+        if self.special {
+            for (number, block) in model.blocks().enumerate().filter(|(_, b)| b.column.is_none()) {
+                for s in block.states() {
+                    for i in 0..3 {
+                        along[i][s - nav] = self.way[number][i] / t;
+                    }
+                }
+            }
+        }
+        for first in (0..sources).step_by(lanes) {
+            let (d, z) =
+                (three::<S, N>(simd, &along, first), three::<S, N>(simd, &self.with_integrals, first));
+            let gyro = load::<S>(simd, &self.columns.gyro[first..]);
+            let mut made = [[0.0; STEPS]; 9];
+            for i in 0..3 {
+                let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+                // -f × along of a gyro, along of an accelerometer.
+                let turned = d[j] * force[k] - d[k] * force[j];
+                let reach = (d[i] + (turned - d[i]) * gyro) * free[i];
+                store::<S>(reach * z[0], &mut made[i]);
+                store::<S>(reach * z[1], &mut made[3 + i]);
+                store::<S>(-(d[i] * gyro) * z[2], &mut made[6 + i]);
+            }
+            let end = (first + lanes).min(sources);
+            for (i, row) in out.q_n[..nav].iter_mut().enumerate() {
+                let from = if nav == 9 { &made[i] } else { &made[model.full()[i]] };
+                for (out, made) in row[nav + first..nav + end].iter_mut().zip(from) {
+                    *out = *made;
+                }
+            }
+        }
+        along
+    }
+
+    /// That of white noise: with G, A, R the densities that drive attitude, velocity and position, and F = [f ×],
     ///
     /// ```text
     /// Q_pp = G T,  Q_vp = F G T²/2,  Q_rp = F G T³/6,  Q_vv = A T + F G F' T³/3,
@@ -208,82 +307,134 @@ impl<const N: usize> Accumulator<N> {
     ///
     /// (in Q_vp the first moment of the force is taken as it was).
     #[inline(always)]
-    fn white_noise(&self, model: &Model<N>, f: &Matrix3<f64>) -> Nine {
+    fn white_noise<S: Simd>(&self, simd: S, model: &Model<N>, fast: &Fast<S>) -> Noise<S> {
         let t = self.t;
-        let free = self.free();
-        let kept = |first: usize| {
-            Vector3::from_fn(|k, _| if model.full().contains(&(first + k)) { 1.0 } else { 0.0 })
-        };
-        let masked = |m: Matrix3<f64>, mask: Vector3<f64>| m.component_mul(&(mask * mask.transpose()));
-        let sensor = |k: usize| match self.isotropic[k] {
-            Some(density) => Matrix3::from_diagonal_element(density),
-            None => self.white[k] / t,
-        };
-        let g = masked(sensor(0) + diagonal(model, 6), kept(6));
-        let a = masked(masked(sensor(1), free) + diagonal(model, 3), kept(3));
-        let r = masked(diagonal(model, 0), kept(0));
-        let moment = Matrix3::from_diagonal(&free) * (self.m0 * t - self.m1).cross_matrix();
-        let fg = f * g;
-        let fgf = fg * f.transpose();
+        let down = self.down();
+        let mut densities = [Padded::zero(simd); 3];
+        for (k, density) in densities.iter_mut().enumerate() {
+            // Of position, velocity and attitude, by itself and by a sensor.
+            let first = 3 * k;
+            let own = &model.nav_noise;
+            *density = Padded::diagonal(simd, [own[first], own[first + 1], own[first + 2]]);
+            let held = if k == 1 { down } else { 1.0 };
+            if k > 0 {
+                *density = *density
+                    + match self.isotropic[2 - k] {
+                        Some(density) => Padded::diagonal(simd, [density, density, density * held]),
+                        None => padded(simd, &(self.white[2 - k] / t))
+                            .scaled([1.0, 1.0, held])
+                            .rows(f64x4::simd_from(simd, [1.0, 1.0, held, 0.0])),
+                    };
+            }
+            if model.nav_len() < 9 {
+                let mut mask = [0.0; 4];
+                for &full in model.full().iter().filter(|&full| full / 3 == k) {
+                    mask[full % 3] = 1.0;
+                }
+                *density = density.scaled([mask[0], mask[1], mask[2]]).rows(f64x4::simd_from(simd, mask));
+            }
+        }
+        let [r, a, g] = densities;
+        let (gained, moved) = (Vector3::from(self.sums.gained), Vector3::from(self.sums.moved));
+        let moment = Padded::cross(simd, gained * t - moved).rows(fast.free);
+        let fg = fast.f * g;
+        let fgf = fg * fast.f_transposed;
         let (t2, t3) = (t * t, t * t * t);
-        let mut q = Nine::zeros();
-        let mut block = |row: usize, column: usize, m: Matrix3<f64>| {
-            q.fixed_view_mut::<3, 3>(row, column).copy_from(&m);
-        };
-        block(6, 6, g * t);
-        block(3, 6, moment * g);
-        block(0, 6, fg * (t3 / 6.0));
-        block(3, 3, a * t + fgf * (t3 / 3.0));
-        block(0, 3, a * (t2 / 2.0) + fgf * (t2 * t2 / 8.0));
-        block(0, 0, r * t + a * (t3 / 3.0) + fgf * (t3 * t2 / 20.0));
-        q
+        Noise {
+            pp: g * t,
+            vp: moment * g,
+            rp: fg * (t3 / 6.0),
+            vv: a * t + fgf * (t3 / 3.0),
+            rv: a * (t2 / 2.0) + fgf * (t2 * t2 / 8.0),
+            rr: r * t + a * (t3 / 3.0) + fgf * (t3 * t2 / 20.0),
+        }
     }
-}
 
-/// Blocks of the same behaviour on the axes of one instrument.
-#[derive(Default)]
-struct Group {
-    instrument: Option<Instrument>,
-    /// Covariance of the integrals z3, z2, z1 of the coefficient.
-    integrals: Matrix3<f64>,
-    /// Σ along along' of the directions in which they enter.
-    spread: Matrix3<f64>,
-}
-
-impl Group {
-    /// What the noise that drives them makes of the navigation errors, on and above the diagonal.
+    /// Adds what the noise makes that drives blocks of the same behaviour as the one of that `number`, on axes of one
+    /// instrument: `spread` is the sum of the squares of their directions.
     #[inline(always)]
-    fn add_to(&self, q: &mut Nine, f: &Matrix3<f64>, free: &Vector3<f64>) {
-        let z = |i: usize, j: usize| self.integrals[(i, j)];
-        let mut block = |row: usize, column: usize, m: Matrix3<f64>| {
-            let mut view = q.fixed_view_mut::<3, 3>(row, column);
-            view += m;
-        };
-        match self.instrument {
-            Some(Instrument::Gyro) => {
+    fn spread_noise<S: Simd>(
+        &self,
+        q: &mut Noise<S>,
+        fast: &Fast<S>,
+        instrument: Instrument,
+        number: usize,
+        spread: Padded<S>,
+    ) {
+        let Some(step) = &self.of_interval[number] else { return };
+        let z = &step.q;
+        match instrument {
+            Instrument::Gyro => {
                 // phi = -z1 along, dv = -z2 f × along, dr = -z3 f × along
-                let fs = f * self.spread;
-                let fsf = fs * f.transpose();
-                block(6, 6, self.spread * z(2, 2));
-                block(3, 6, fs * z(1, 2));
-                block(0, 6, fs * z(0, 2));
-                block(3, 3, fsf * z(1, 1));
-                block(0, 3, fsf * z(0, 1));
-                block(0, 0, fsf * z(0, 0));
+                let fs = fast.f * spread;
+                let fsf = fs * fast.f_transposed;
+                q.pp = q.pp + spread * z[(2, 2)];
+                q.vp = q.vp + fs * z[(1, 2)];
+                q.rp = q.rp + fs * z[(0, 2)];
+                q.vv = q.vv + fsf * z[(1, 1)];
+                q.rv = q.rv + fsf * z[(0, 1)];
+                q.rr = q.rr + fsf * z[(0, 0)];
             }
-            Some(Instrument::Accel) => {
+            Instrument::Accel => {
                 // dv = z1 along, dr = z2 along
-                let s = self.spread.component_mul(&(free * free.transpose()));
-                block(3, 3, s * z(2, 2));
-                block(0, 3, s * z(1, 2));
-                block(0, 0, s * z(1, 1));
+                let s = spread.rows(fast.free).scaled([1.0, 1.0, self.down()]);
+                q.vv = q.vv + s * z[(2, 2)];
+                q.rv = q.rv + s * z[(1, 2)];
+                q.rr = q.rr + s * z[(1, 1)];
             }
-            None => {}
         }
     }
 }
 
-/// Densities that drive three of the navigation errors directly.
-fn diagonal<const N: usize>(model: &Model<N>, first: usize) -> Matrix3<f64> {
-    Matrix3::from_diagonal(&Vector3::from_column_slice(&model.nav_noise[first..first + 3]))
+/// F = [f ×], and which rows are driven.
+struct Fast<S: Simd> {
+    free: f64x4<S>,
+    f: Padded<S>,
+    f_transposed: Padded<S>,
+}
+
+impl<S: Simd> Fast<S> {
+    #[inline(always)]
+    fn new(simd: S, force: Vector3<f64>, down: f64) -> Self {
+        let free = f64x4::simd_from(simd, [1.0, 1.0, down, 0.0]);
+        Fast {
+            free,
+            f: Padded::cross(simd, force).rows(free),
+            f_transposed: Padded::cross(simd, -force).scaled([1.0, 1.0, down]),
+        }
+    }
+}
+
+/// Blocks of the covariance of the navigation errors, on and above the diagonal.
+struct Noise<S: Simd> {
+    rr: Padded<S>,
+    rv: Padded<S>,
+    rp: Padded<S>,
+    vv: Padded<S>,
+    vp: Padded<S>,
+    pp: Padded<S>,
+}
+
+#[inline(always)]
+fn padded<S: Simd>(simd: S, m: &Matrix3<f64>) -> Padded<S> {
+    let mut columns = [[0.0; 4]; 3];
+    for j in 0..3 {
+        for i in 0..3 {
+            columns[j][i] = m[(i, j)];
+        }
+    }
+    Padded::new(simd, &columns)
+}
+
+/// Three rows of source states from the state `first` on.
+#[inline(always)]
+fn three<S: Simd, const N: usize>(simd: S, rows: &[[f64; N]; 3], first: usize) -> [S::f64s; 3] {
+    let [x, y, z] = rows;
+    [load::<S>(simd, &x[first..]), load::<S>(simd, &y[first..]), load::<S>(simd, &z[first..])]
+}
+
+/// Row `i` of a v, for as many v as there are lanes.
+#[inline(always)]
+fn times<S: Simd>(a: &Columns3, v: &[S::f64s; 3], i: usize) -> S::f64s {
+    v[0] * a[0][i] + v[1] * a[1][i] + v[2] * a[2][i]
 }
