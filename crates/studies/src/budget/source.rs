@@ -26,10 +26,10 @@ pub struct Source {
 }
 
 /// What a row is.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub enum Kind {
     /// One coefficient of a sensor error.
-    Sensor(Component),
+    Sensor(Box<Component>),
     /// One initial error; its numbers are standard deviations.
     Initial(Initial),
 }
@@ -49,7 +49,7 @@ pub fn sources(study: &Budget) -> Vec<Source> {
         .imu
         .spec
         .components()
-        .map(|c| Source { name: c.to_string(), kind: Kind::Sensor(c) })
+        .map(|c| Source { name: c.to_string(), kind: Kind::Sensor(Box::new(c)) })
         .filter(|s| s.size().is_none_or(|size| size.value != 0.0 || size.rate != 0.0));
     let initial =
         study.initial_sigmas.iter().map(|i| Source { name: i.name.into(), kind: Kind::Initial(*i) });
