@@ -2,6 +2,7 @@
 
 pub mod align;
 pub mod allan_study;
+pub mod budget;
 mod channel;
 mod diagnostic;
 pub mod drift;

@@ -1,7 +1,7 @@
 //! From a scenario to a record.
 
 use crate::{
-    Context, Error, Scenario, align, allan_study, drift, imu_study, navigate, record::Record,
+    Context, Error, Scenario, align, allan_study, budget, drift, imu_study, navigate, record::Record,
     scenario::Study, simulate,
 };
 
@@ -14,6 +14,7 @@ pub fn run(scenario: &Scenario, context: &Context) -> Result<Record, Error> {
         Study::Drift(_) => drift::run(scenario, context)?,
         Study::Navigate(_) => navigate::run(scenario, context)?,
         Study::Align(_) => align::run(scenario, context)?,
+        Study::Budget(study) => budget::run(scenario, study, context)?,
         Study::Allan(_) => allan_study::run(scenario, context)?,
     };
     record.judge(scenario);

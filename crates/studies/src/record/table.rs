@@ -276,8 +276,32 @@ pub mod columns {
     ];
     /// `windows.csv` of an alignment of a log: the attitude at the end of each window.
     pub const WINDOWS: [&str; 5] = ["t_s", "source", "roll_rad", "pitch_rad", "yaw_rad"];
-    /// `way` of `errors.csv`: of a drift study, then of an alignment.
-    pub const WAYS: [&str; 10] = [
+    /// `budget.csv`: standard deviations of the nine navigation errors; the root of the sum of the horizontal variances, the
+    /// radii that hold 50 % and 95 % of the horizontal position errors, and the share of the horizontal variance.
+    pub const BUDGET: [&str; 16] = [
+        "t_s",
+        "source",
+        "way",
+        "dn_m",
+        "de_m",
+        "dd_m",
+        "dv_n_mps",
+        "dv_e_mps",
+        "dv_d_mps",
+        "phi_n_rad",
+        "phi_e_rad",
+        "phi_d_rad",
+        "horizontal_m",
+        "cep_m",
+        "r95_m",
+        "share_ratio",
+    ];
+    /// `requirement.csv`: the radius of the required probability, of a source alone and of all; its derivative by the relative
+    /// size of the source and that over the radius; and the factor by which the source may grow.
+    pub const REQUIREMENT: [&str; 6] =
+        ["t_s", "source", "radius_m", "derivative_m", "part_ratio", "may_grow_ratio"];
+    /// `way` of `errors.csv`: of a drift study, then of an alignment; then of a budget (with `exact`).
+    pub const WAYS: [&str; 14] = [
         "nonlinear",
         "half_difference",
         "linear",
@@ -288,6 +312,10 @@ pub mod columns {
         "sigma",
         "limit",
         "navigated",
+        "covariance",
+        "columns",
+        "adjoint",
+        "monte_carlo",
     ];
 
     /// Whether a column holds counts, which are whole numbers.

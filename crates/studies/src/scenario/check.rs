@@ -36,6 +36,7 @@ impl Document {
             StudyKind::Navigate => Study::Navigate(self.navigate(w)?),
             StudyKind::Align => Study::Align(self.align_study(w)?),
             StudyKind::Simulate => Study::Simulate(Box::new(self.simulate(w)?)),
+            StudyKind::Budget => Study::Budget(Box::new(self.budget(w)?)),
             StudyKind::Allan => Study::Allan(self.log(self.required_log(w, "allan")?)?),
         };
         let rate = match &study {
@@ -45,6 +46,7 @@ impl Document {
             Study::Allan(log) => log.rate,
             Study::Align(s) => s.rate(),
             Study::Simulate(s) => s.imu.rate,
+            Study::Budget(s) => s.imu.rate,
         };
         let output = self.output(w.output.as_ref(), rate)?;
         self.whole_updates(w, &study, &output, rate)?;
@@ -63,17 +65,18 @@ impl Document {
         fn node<T>(key: &Option<At<T>>) -> Option<NodeId> {
             key.as_ref().map(|k| k.node)
         }
-        use StudyKind::{Align, Allan, Drift, Imu, Navigate, Simulate};
-        let keys: [(Option<NodeId>, &[StudyKind]); 10] = [
-            (node(&w.motion), &[Imu, Drift, Simulate, Align]),
-            (node(&w.imu), &[Imu, Drift, Simulate, Align]),
+        use StudyKind::{Align, Allan, Budget, Drift, Imu, Navigate, Simulate};
+        let keys: [(Option<NodeId>, &[StudyKind]); 11] = [
+            (node(&w.motion), &[Imu, Drift, Simulate, Align, Budget]),
+            (node(&w.imu), &[Imu, Drift, Simulate, Align, Budget]),
             (node(&w.gravity), &[Simulate]),
             (node(&w.aiding), &[Simulate]),
             (node(&w.initial_errors), &[Drift]),
-            (node(&w.mechanization), &[Drift, Navigate, Align]),
+            (node(&w.mechanization), &[Drift, Navigate, Align, Budget]),
             (node(&w.log), &[Navigate, Allan, Align]),
             (node(&w.align), &[Navigate]),
             (node(&w.alignment), &[Align]),
+            (node(&w.budget), &[Budget]),
             (w.output.as_ref().and_then(|output| node(&output.value.allan)), &[Imu]),
         ];
         for (node, studies) in keys {
@@ -263,6 +266,7 @@ impl Document {
     ) -> Result<(), Diagnostic> {
         let (mechanization, samples) = match study {
             Study::Drift(drift) => (&drift.mechanization, Some(drift.samples)),
+            Study::Budget(budget) => (&budget.mechanization, Some(budget.samples)),
             Study::Navigate(navigate) => {
                 let last = navigate.duration.map(|duration| (duration * rate).round() as u64);
                 (&navigate.mechanization, last)

@@ -64,6 +64,7 @@ impl Document {
             StudyKind::Drift => columns::ERRORS.to_vec(),
             // Its parameters are estimates with intervals of their own; the deviations are facts of the log.
             StudyKind::Allan => vec!["deviation_radps", "deviation_mps2"],
+            StudyKind::Budget => [&columns::BUDGET[3..], &columns::REQUIREMENT[2..]].concat(),
             StudyKind::Align => {
                 [&columns::ERRORS[3..], &columns::CONSISTENCY[2..], &columns::WINDOWS[2..]].concat()
             }

@@ -4,6 +4,7 @@
 //! and checking it gives the valid form: SI, radians, every invariant. The only way in is [`Scenario::load`].
 
 mod alignment;
+mod budget;
 mod check;
 mod check_motion;
 mod check_simulate;
@@ -32,6 +33,7 @@ mod written_motion;
 pub use alignment::valid::{
     AlignStudy, Coarse, FilterSettings, Knock, Method, MethodKind, Origin, Strategy, StrategyKind, Velocity,
 };
+pub use budget::valid::{Budget, Requirement};
 pub use schema::json_schema;
 pub use sources::process_example;
 pub use valid::{

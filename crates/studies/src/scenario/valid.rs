@@ -8,6 +8,7 @@ use schuler_imu::Spec;
 use schuler_strapdown::Coning;
 
 use super::alignment::valid::AlignStudy;
+use super::budget::valid::Budget;
 use super::valid_motion::{Motion, Simulate};
 use crate::log::{Content, LogSpec};
 
@@ -45,6 +46,8 @@ pub enum Study {
     Align(AlignStudy),
     /// Truth, logs and measurements of a motion.
     Simulate(Box<Simulate>),
+    /// The share of each error source.
+    Budget(Box<Budget>),
 }
 
 impl Scenario {
@@ -54,6 +57,7 @@ impl Scenario {
             Study::Imu(_) | Study::Allan(_) | Study::Simulate(_) => None,
             Study::Drift(drift) => Some(&drift.mechanization),
             Study::Align(align) => Some(&align.mechanization),
+            Study::Budget(budget) => Some(&budget.mechanization),
             Study::Navigate(navigate) => Some(&navigate.mechanization),
         }
     }
@@ -79,6 +83,7 @@ impl Study {
             Study::Allan(_) => "allan",
             Study::Align(_) => "align",
             Study::Simulate(_) => "simulate",
+            Study::Budget(_) => "budget",
         }
     }
 }

@@ -5,6 +5,7 @@ use serde::Deserialize;
 
 use super::{
     alignment::written::Alignment,
+    budget::written::Budget,
     de::At,
     schema::{Scalar, Sources, Title},
     written_motion::{Aiding, Motion},
@@ -45,6 +46,8 @@ pub struct Scenario {
     pub align: Option<At<Align>>,
     /// Methods of alignment and what they work with.
     pub alignment: Option<At<Alignment>>,
+    /// What an error budget asks.
+    pub budget: Option<At<Budget>>,
     /// What is written, and how often.
     pub output: Option<At<Output>>,
     /// What the result is expected to be; checked by `run`.
@@ -70,6 +73,8 @@ pub enum StudyKind {
     Align,
     /// A motion: its truth, ideal and corrupted IMU log, and aiding measurements.
     Simulate,
+    /// The share of each error source in the errors of the navigator, several ways side by side.
+    Budget,
 }
 
 /// Place, time, attitude and velocity at t = 0.

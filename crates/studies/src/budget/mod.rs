@@ -1,0 +1,174 @@
+//! The budget study: how much of the navigator's error comes from which source, several ways side by side.
+
+mod closed_form;
+mod columns;
+mod covariance;
+mod figures;
+mod monte_carlo;
+mod radius;
+mod report;
+mod scene;
+mod source;
+#[cfg(test)]
+mod tests;
+
+use rayon::prelude::*;
+
+use crate::{Context, Diagnostic, Error, Scenario, record::Record, scenario::Budget};
+use scene::Scene;
+use source::{Nine, Source};
+
+/// A way in which a row is obtained.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// Joint covariance of the navigation errors and the states of the source.
+    Covariance,
+    /// One response of constants and initial errors by the transition matrices of the error dynamics.
+    Columns,
+    /// One pass backward from the last row; at rest.
+    Adjoint,
+    /// Closed form on the ellipsoid; at rest with the height held.
+    Exact,
+    /// Mean square over runs of the full navigator.
+    MonteCarlo,
+}
+
+impl Way {
+    /// The word in `budget.csv`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Way::Covariance => "covariance",
+            Way::Columns => "columns",
+            Way::Adjoint => "adjoint",
+            Way::Exact => "exact",
+            Way::MonteCarlo => "monte_carlo",
+        }
+    }
+}
+
+/// What one way says about one row: covariances from row `first` of the scene on.
+struct Said {
+    way: Way,
+    first: usize,
+    p: Vec<Nine>,
+}
+
+/// All ways of one source, or of all together.
+struct Contribution {
+    name: String,
+    said: Vec<Said>,
+}
+
+impl Contribution {
+    fn of(&self, way: Way) -> Option<&[Nine]> {
+        self.said.iter().find(|s| s.way == way).map(|s| &s.p[..])
+    }
+}
+
+/// The row of all sources together.
+const TOTAL: &str = "total";
+
+/// Samples of a motion that Monte Carlo runs keep in memory.
+const MOST_SAMPLES: u64 = 4_000_000;
+
+/// Runs a budget study.
+///
+/// Each component of an error source and each initial error is a row, of one standard deviation (a fixed value counts as
+/// one of its size), independent of all others: the rows sum to the total in variance. Every row is obtained by covariance,
+/// and by all other [`Way`]s that know it.
+///
+/// # Errors
+/// Nothing to budget; more samples than Monte Carlo can keep; a run without numbers.
+pub fn run(scenario: &Scenario, study: &Budget, context: &Context) -> Result<Record, Error> {
+    let scene = Scene::new(study, scenario.output.every);
+    let sources = source::sources(study);
+    possible(scenario, &scene, &sources)?;
+    let units = if study.runs > 0 { sources.len() as u64 + 1 } else { 0 };
+    context.progress.begin("budget", 1 + units);
+    let mut contributions = linear(&scene, &sources);
+    context.progress.advance(1);
+    if study.runs > 0 {
+        let track = monte_carlo::Track::new(&scene);
+        for (k, contribution) in contributions.iter_mut().enumerate() {
+            let together = sources.get(k).map_or(&sources[..], std::slice::from_ref);
+            let p = monte_carlo::covariance(&scene, &track, together, scenario.seed)?;
+            contribution.said.push(Said { way: Way::MonteCarlo, first: 0, p });
+            context.progress.advance(1);
+        }
+    }
+
+    let mut record = Record::new(scenario, report::summary(&contributions));
+    record.tables.push(report::table(&scene, &contributions));
+    if let Some(requirement) = &study.requirement {
+        record.tables.push(report::requirement(&scene, &contributions, requirement));
+    }
+    record.notes = report::notes(&scene, &contributions);
+    if scenario.output.formats.png || scenario.output.formats.svg {
+        record.figures = figures::figures(&scenario.title, &scene, &contributions);
+    }
+    Ok(record)
+}
+
+/// All ways but runs; the last contribution is the total.
+fn linear(scene: &Scene, sources: &[Source]) -> Vec<Contribution> {
+    let forward = covariance::covariance(scene, sources);
+    let responses = columns::responses(scene, sources);
+    let square = |rows: &[[f64; 9]]| rows.iter().map(columns::covariance).collect::<Vec<_>>();
+    let rest: Vec<Vec<Said>> = sources
+        .par_iter()
+        .zip(&responses)
+        .map(|(source, response)| {
+            let mut said = Vec::new();
+            if !response.is_empty() {
+                said.push(Said { way: Way::Columns, first: 0, p: square(response) });
+            }
+            if scene.steady {
+                let p = vec![covariance::adjoint(scene, source)];
+                said.push(Said { way: Way::Adjoint, first: scene.rows.len() - 1, p });
+            }
+            if let Some(response) = closed_form::response(scene, source) {
+                said.push(Said { way: Way::Exact, first: 0, p: square(&response) });
+            }
+            said
+        })
+        .collect();
+    let mut all: Vec<Contribution> = sources
+        .iter()
+        .zip(forward)
+        .zip(rest)
+        .map(|((source, p), rest)| {
+            let mut said = vec![Said { way: Way::Covariance, first: 0, p }];
+            said.extend(rest);
+            Contribution { name: source.name.clone(), said }
+        })
+        .collect();
+    // A way has a total where it knows every row.
+    let mut total = Contribution { name: TOTAL.into(), said: Vec::new() };
+    for way in [Way::Covariance, Way::Columns, Way::Adjoint, Way::Exact] {
+        let rows: Option<Vec<&Said>> = all.iter().map(|c| c.said.iter().find(|s| s.way == way)).collect();
+        let Some(first) = rows.as_ref().and_then(|rows| rows.first()) else { continue };
+        let (first, len) = (first.first, first.p.len());
+        let sum = |k: usize| rows.iter().flatten().map(|s| s.p[k]).sum::<Nine>();
+        total.said.push(Said { way, first, p: (0..len).map(sum).collect() });
+    }
+    all.push(total);
+    all
+}
+
+fn possible(scenario: &Scenario, scene: &Scene, sources: &[Source]) -> Result<(), Error> {
+    if sources.is_empty() {
+        return Err(Diagnostic::new(&scenario.file, "a budget of nothing")
+            .path("imu")
+            .expected("error sources, or `budget: { initial_sigmas: … }`")
+            .example("gyro: [{ bias: { constant: { sigma: 0.01 deg/h } } }]")
+            .into());
+    }
+    if scene.study.runs > 0 && !scene.steady && scene.study.samples > MOST_SAMPLES {
+        return Err(Diagnostic::new(&scenario.file, "more samples of a motion than runs can keep")
+            .path("budget.runs")
+            .expected(format!("at most {MOST_SAMPLES} samples, or `motion: static`"))
+            .found(format!("{} samples", scene.study.samples))
+            .into());
+    }
+    Ok(())
+}

@@ -1,0 +1,107 @@
+//! The rows of a budget: each component of an error source, each component of the initial error.
+
+use nalgebra::SMatrix;
+use schuler_imu::{Component, Spec};
+use schuler_strapdown::filter::{Form, Model, NavStates};
+
+use crate::scenario::{Budget, Initial};
+
+/// States of one component beside the nine navigation errors: no process has more.
+pub const ROOM: usize = 9 + schuler_imu::process::MAX_STATES;
+
+/// Covariance of the nine navigation errors in the order of [`schuler_strapdown::NavError::as_array`].
+pub type Nine = SMatrix<f64, 9, 9>;
+/// Covariance of navigation errors and the states of one component.
+pub type Joint = SMatrix<f64, ROOM, ROOM>;
+/// States of one component.
+pub type Joined = Model<ROOM>;
+
+/// One row of a budget.
+#[derive(Clone)]
+pub struct Source {
+    /// `gyro.bias.constant.x` or `initial.tilt.n`.
+    pub name: String,
+    /// What it is.
+    pub kind: Kind,
+}
+
+/// What a row is.
+#[derive(Clone)]
+pub enum Kind {
+    /// One coefficient of a sensor error.
+    Sensor(Box<Component>),
+    /// One initial error; its numbers are standard deviations.
+    Initial(Initial),
+}
+
+/// A coefficient that is known but for its size: standard deviations of its value at t = 0 and of its rate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Size {
+    /// In the coefficient's unit.
+    pub value: f64,
+    /// In the coefficient's unit per second.
+    pub rate: f64,
+}
+
+/// All rows; components of size zero ("not this axis") are left out.
+pub fn sources(study: &Budget) -> Vec<Source> {
+    let sensors = study
+        .imu
+        .spec
+        .components()
+        .map(|c| Source { name: c.to_string(), kind: Kind::Sensor(Box::new(c)) })
+        .filter(|s| s.size().is_none_or(|size| size.value != 0.0 || size.rate != 0.0));
+    let initial =
+        study.initial_sigmas.iter().map(|i| Source { name: i.name.into(), kind: Kind::Initial(*i) });
+    sensors.chain(initial).collect()
+}
+
+impl Source {
+    /// The nine initial errors of one standard deviation.
+    pub fn initial(&self) -> [f64; 9] {
+        match &self.kind {
+            Kind::Sensor(_) => [0.0; 9],
+            Kind::Initial(i) => {
+                let all = [i.position, i.velocity, i.phi];
+                std::array::from_fn(|k| all[k / 3][k % 3])
+            }
+        }
+    }
+
+    /// The list of sensor errors with this one alone.
+    pub fn spec(&self, all: &Spec) -> Spec {
+        match &self.kind {
+            Kind::Sensor(component) => all.only(component),
+            Kind::Initial(_) => Spec::new(),
+        }
+    }
+
+    /// Navigation errors and states of the source. One component always has room.
+    pub fn model(&self, all: &Spec) -> Joined {
+        Model::new(Form::Phi, NavStates::ALL, &self.spec(all))
+            .expect("invariant: no component has more states than there is room for")
+    }
+
+    /// Second moment of all states at t = 0. A fixed value counts as a standard deviation of its size.
+    pub fn start(&self, model: &Joined) -> Joint {
+        let p = model.p0(&self.initial()).expect("invariant: standard deviations of a valid scenario");
+        let x = model.x0();
+        p + x * x.transpose()
+    }
+
+    /// The size of a coefficient that is constant or a ramp; `None` of a process that is random in time, and of an initial
+    /// error.
+    pub fn size(&self) -> Option<Size> {
+        let Kind::Sensor(component) = &self.kind else { return None };
+        let m = component.evolution().linear_model();
+        let moves = m.white != 0.0 || m.q.iter().flatten().any(|q| *q != 0.0);
+        let size = |k: usize| m.c[0].abs() * (m.p0[k][k] + m.x0[k] * m.x0[k]).sqrt();
+        match m.n {
+            1 if !moves && m.a[0][0] == 0.0 => Some(Size { value: size(0), rate: 0.0 }),
+            2 if !moves && m.a[0][..2] == [0.0, 1.0] && m.a[1][..2] == [0.0; 2] && size(0) == 0.0 => {
+                Some(Size { value: 0.0, rate: size(1) })
+            }
+            _ => None,
+        }
+    }
+}

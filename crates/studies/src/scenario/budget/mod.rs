@@ -1,0 +1,155 @@
+//! `study: budget`: from the written to the valid form.
+
+pub(super) mod valid;
+pub(super) mod written;
+
+use schuler_imu::Unit;
+
+use super::{
+    de::At,
+    document::{Document, Spot},
+    quantity::Range,
+    valid::{Imu, Mechanization, Vertical},
+    written::Scenario,
+    written_motion,
+};
+use crate::Diagnostic;
+use valid::{Budget, Requirement};
+
+/// Runs of one budget; beyond it a typing error.
+const MAX_RUNS: u64 = 1_000_000;
+
+impl Document {
+    pub(super) fn budget(&self, w: &Scenario) -> Result<Budget, Diagnostic> {
+        let start = self.required_start(w, "budget")?;
+        let written = self.required(&w.imu, "imu", "budget", "imu: { rate: 100 Hz }")?;
+        let imu = self.imu(written)?;
+        if let Some(readout) = &written.value.readout {
+            return Err(self
+                .diagnostic(Spot::Node(readout.node), "a budget has no readout")
+                .expected("an instrument that adds its errors and nothing else: rounding has no share of a variance")
+                .help("take it out, or choose `study: imu`"));
+        }
+        let samples = self.samples(w, "budget", imu.rate)?;
+        let duration = samples as f64 / imu.rate;
+        let mechanization = self.mechanization(w, "budget")?;
+        self.second_order_at_most(w, &mechanization)?;
+        let motion = self.required(&w.motion, "motion", "budget", "motion: static")?;
+        if matches!(motion.value, written_motion::Motion::ZeroTruth) {
+            return Err(self
+                .diagnostic(Spot::Node(motion.node), "zero truth is no place on the Earth to navigate from")
+                .expected("a motion")
+                .example("motion: static"));
+        }
+        let valid_motion = self.motion(motion, Some(&start), Some(duration))?;
+        if valid_motion.file().is_some() {
+            return Err(self
+                .diagnostic(Spot::Node(motion.node), "the study `budget` reads no trajectory")
+                .help("choose another motion"));
+        }
+        let trajectory = valid_motion
+            .trajectory(&start, mechanization.gravity, samples, 1.0 / imu.rate)
+            .map_err(|fault| self.impossible(motion, &fault))?;
+        let end = trajectory.and_then(|trajectory| trajectory.duration()).unwrap_or(f64::INFINITY);
+        if duration > end * (1.0 + 1e-9) {
+            let node = w.duration.as_ref().map_or(motion.node, |d| d.node);
+            return Err(self
+                .diagnostic(Spot::Node(node), "the motion ends before the duration")
+                .expected(format!("{end:.3} s or less"))
+                .found(format!("{duration} s")));
+        }
+        let block = w.budget.as_ref().map(|b| &b.value);
+        let initial_sigmas = block.and_then(|b| b.initial_sigmas.as_ref());
+        let sigmas = self.initial_errors(initial_sigmas)?;
+        let negative =
+            |i: &super::valid::Initial| [i.position, i.velocity, i.phi].iter().flatten().any(|x| *x < 0.0);
+        if let (Some(at), Some(initial)) = (initial_sigmas, sigmas.iter().find(|i| negative(i))) {
+            return Err(self
+                .diagnostic(Spot::Node(at.node), "a standard deviation must not be negative")
+                .found(initial.name));
+        }
+        let runs = self.runs(block.and_then(|b| b.runs.as_ref()), &imu)?;
+        let requirement = block.and_then(|b| b.requirement.as_ref());
+        Ok(Budget {
+            motion: valid_motion,
+            start,
+            samples,
+            initial_sigmas: sigmas,
+            mechanization,
+            requirement: requirement.map(|r| self.requirement(w, r, duration, imu.rate)).transpose()?,
+            imu,
+            runs,
+        })
+    }
+
+    /// The error dynamics of the budget have the nine navigation errors and no state of a loop.
+    fn second_order_at_most(&self, w: &Scenario, how: &Mechanization) -> Result<(), Diagnostic> {
+        match how.vertical {
+            Vertical::Damped(damping) if damping.order != 2 => {
+                let node = w.mechanization.as_ref().map_or(self.root(), |m| m.node);
+                Err(self
+                    .diagnostic(Spot::Node(node), "a budget has no third-order vertical loop")
+                    .expected("`held`, `free`, or a loop of order 2")
+                    .example("vertical: { damped: { order: 2, tau: 100 s } }"))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Runs draw what has a standard deviation: a fixed value has no share of what they scatter.
+    fn runs(&self, runs: Option<&At<u64>>, imu: &Imu) -> Result<u64, Diagnostic> {
+        let Some(runs) = runs else { return Ok(0) };
+        let fault = |problem: &str| self.diagnostic(Spot::Node(runs.node), problem);
+        if !(2..=MAX_RUNS).contains(&runs.value) {
+            return Err(fault("no such number of runs")
+                .expected(format!("2 to {MAX_RUNS}"))
+                .found(runs.value.to_string())
+                .example("runs: 200"));
+        }
+        let fixed = imu
+            .spec
+            .components()
+            .find(|c| c.evolution().deterministic().is_some_and(|p| p.value != 0.0 || p.rate != 0.0));
+        match fixed {
+            Some(component) => Err(fault("a fixed value does not scatter from run to run")
+                .expected("sources with a standard deviation: `sigma` instead of `value` or `rate`")
+                .found(component.to_string())),
+            None => Ok(runs.value),
+        }
+    }
+
+    fn requirement(
+        &self,
+        w: &Scenario,
+        requirement: &At<written::Requirement>,
+        duration: f64,
+        rate: f64,
+    ) -> Result<Requirement, Diagnostic> {
+        let r = &requirement.value;
+        let at = self.quantity(&r.at, Unit::SECOND, Range::Positive)?;
+        let every = w.output.as_ref().and_then(|o| o.value.every.as_ref());
+        let every =
+            every.map_or(Ok(1.0 / rate), |every| self.quantity(every, Unit::SECOND, Range::Positive))?;
+        let rows = at / every;
+        let is_row = (rows - rows.round()).abs() < 1e-6 || (at - duration).abs() < 1e-6 / rate;
+        if at > duration * (1.0 + 1e-12) || !is_row {
+            return Err(self
+                .diagnostic(Spot::Node(r.at.node), "no row at the time of the requirement")
+                .expected(format!("a multiple of {every} s up to the duration, {duration} s"))
+                .found(format!("{at} s")));
+        }
+        let probability = self.quantity(&r.probability, Unit::ONE, Range::Positive)?;
+        if probability >= 1.0 {
+            return Err(self
+                .diagnostic(Spot::Node(r.probability.node), "no radius holds everything")
+                .expected("a probability below one")
+                .found(probability.to_string())
+                .example("probability: 95 %"));
+        }
+        Ok(Requirement {
+            horizontal: self.quantity(&r.horizontal, Unit::METRE, Range::Positive)?,
+            at,
+            probability,
+        })
+    }
+}
