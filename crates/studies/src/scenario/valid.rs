@@ -7,6 +7,7 @@ use schuler_frames::{Euler, Geodetic, Gravity};
 use schuler_imu::Spec;
 use schuler_strapdown::Coning;
 
+use super::aided::valid::Aided;
 use super::alignment::valid::AlignStudy;
 use super::valid_motion::{Motion, Simulate};
 use crate::log::{Content, LogSpec};
@@ -39,6 +40,8 @@ pub enum Study {
     Drift(Drift),
     /// A recorded log.
     Navigate(Navigate),
+    /// A recorded log with measurements beside it.
+    Aided(Box<Aided>),
     /// Allan deviations of a recorded log, and the error model in them.
     Allan(LogSpec),
     /// Methods of alignment side by side.
@@ -55,6 +58,7 @@ impl Scenario {
             Study::Drift(drift) => Some(&drift.mechanization),
             Study::Align(align) => Some(&align.mechanization),
             Study::Navigate(navigate) => Some(&navigate.mechanization),
+            Study::Aided(aided) => Some(&aided.mechanization),
         }
     }
 }
@@ -75,7 +79,7 @@ impl Study {
         match self {
             Study::Imu(_) => "imu",
             Study::Drift(_) => "drift",
-            Study::Navigate(_) => "navigate",
+            Study::Navigate(_) | Study::Aided(_) => "navigate",
             Study::Allan(_) => "allan",
             Study::Align(_) => "align",
             Study::Simulate(_) => "simulate",
