@@ -88,6 +88,8 @@ impl Data {
         let folder = std::env::temp_dir().join(format!("schuler-aided-{name}-{seed}-{}", std::process::id()));
         let scenario = load(FLIGHT, &[format!("seed={seed}")]);
         let record = run_study(&scenario, &Context { data: None, progress: &Silent }).unwrap();
+        // There already, so that tests side by side do not meet in the folder above it.
+        std::fs::create_dir_all(&folder).unwrap();
         Folder::check(&folder).and_then(|to| to.write(&record, scenario.output.formats)).unwrap();
         Data(folder)
     }
