@@ -38,6 +38,7 @@ fn every_config_runs_and_its_expect_holds() {
         }
         let log = match &scenario.study {
             Study::Navigate(navigate) => Some(&navigate.log.file),
+            Study::Aided(aided) => Some(&aided.log.file),
             Study::Allan(log) => Some(&log.file),
             Study::Align(align) => match &align.origin {
                 Origin::Log { log, .. } => Some(&log.file),

@@ -13,6 +13,7 @@ pub fn run(scenario: &Scenario, context: &Context) -> Result<Record, Error> {
         Study::Simulate(study) => simulate::run(scenario, study, context)?,
         Study::Drift(_) => drift::run(scenario, context)?,
         Study::Navigate(_) => navigate::run(scenario, context)?,
+        Study::Aided(aided) => navigate::aided::run(scenario, aided, context)?,
         Study::Align(_) => align::run(scenario, context)?,
         Study::Budget(study) => budget::run(scenario, study, context)?,
         Study::Allan(_) => allan_study::run(scenario, context)?,

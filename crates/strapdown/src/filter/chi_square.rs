@@ -14,6 +14,10 @@ pub fn exceedance(x: f64, dof: usize) -> f64 {
     // Terms e^(-x/2) (x/2)^k / Γ(k + 1) from the last to the first, so that none vanishes for many degrees of freedom.
     let mut k = 0.5 * dof as f64 - 1.0;
     let mut term = libm::exp(k * libm::log(half) - half - libm::lgamma(k + 1.0));
+    // So far below the mean that the last term, the smallest of those that count, vanishes.
+    if term == 0.0 && half < k {
+        return 1.0;
+    }
     let mut sum = if dof.is_multiple_of(2) { 0.0 } else { libm::erfc(libm::sqrt(x) * FRAC_1_SQRT_2) };
     while k > -0.25 {
         sum += term;
@@ -29,6 +33,8 @@ pub fn exceedance(x: f64, dof: usize) -> f64 {
 /// ```
 /// use schuler_strapdown::filter::chi_square;
 /// assert!((chi_square::quantile(0.05, 3) - 7.814728).abs() < 1e-6);
+/// // Many degrees of freedom: normal with mean 30000 and deviation √60000, about.
+/// assert!((chi_square::quantile(0.5, 30_000) - 29_999.333).abs() < 1e-2);
 /// ```
 pub fn quantile(p: f64, dof: usize) -> f64 {
     if p.is_nan() || p >= 1.0 {

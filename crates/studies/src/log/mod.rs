@@ -18,6 +18,7 @@
 //! So text is ten to fifty times the deviation, and npy about twice.
 
 mod axes;
+mod beside;
 mod bytes;
 mod clock;
 mod fault;
@@ -36,6 +37,7 @@ mod tests;
 mod text;
 
 pub use axes::{AxesError, AxisMap};
-pub use find::find;
+pub use beside::{Row, rows};
+pub use find::{find, find_named};
 pub use reader::{LogReader, LogSample, titles};
 pub use spec::{ColumnRef, Columns, Content, LogSpec, Scale, TimeColumn};

@@ -41,7 +41,7 @@ pub struct LogReader {
 }
 
 /// The rows of a log, in counts.
-enum Rows {
+pub(super) enum Rows {
     Text(TextRows),
     Npy(NpyRows),
 }
@@ -53,7 +53,7 @@ const BUFFER: usize = 1 << 16;
 const STEPS: u64 = 500;
 
 impl Rows {
-    fn new(
+    pub fn new(
         file: &Path,
         mut bytes: impl BufRead + Send + 'static,
         wanted: &[Wanted<'_>],
@@ -67,6 +67,22 @@ impl Rows {
             [npy::FIRST, ..] => Rows::Npy(NpyRows::new(file, plain, wanted)?),
             _ => Rows::Text(TextRows::new(file, plain, wanted)?),
         })
+    }
+
+    /// The next row, `None` at the end.
+    pub fn advance(&mut self) -> Result<Option<[f64; SLOTS]>, Error> {
+        match self {
+            Rows::Text(rows) => rows.advance(),
+            Rows::Npy(rows) => rows.advance(),
+        }
+    }
+
+    /// A fault in the number of the current row that goes into `slot`.
+    pub fn fault(&self, slot: usize, problem: &str, found: String) -> Diagnostic {
+        match self {
+            Rows::Text(rows) => rows.fault(slot, problem).found(found),
+            Rows::Npy(rows) => rows.fault(slot, problem).found(format!("{found}, in {}", rows.place(slot))),
+        }
     }
 }
 
@@ -177,22 +193,13 @@ impl LogReader {
         };
         clock.tick(t).map_err(|wrong| {
             let help = "lost samples have to be mended before; the rate stated is `log.rate` of a scenario, or `--rate`";
-            let fault = match &self.rows {
-                Rows::Text(rows) => rows.fault(TIME, wrong.problem).found(wrong.found),
-                Rows::Npy(rows) => {
-                    rows.fault(TIME, wrong.problem).found(format!("{}, in {}", wrong.found, rows.place(TIME)))
-                }
-            };
+            let fault = self.rows.fault(TIME, wrong.problem, wrong.found);
             fault.help(help).expected(format!("a row every {} s", 1.0 / self.spec.rate)).into()
         })
     }
 
     fn advance(&mut self) -> Result<Option<LogSample>, Error> {
-        let counts = match &mut self.rows {
-            Rows::Text(rows) => rows.advance()?,
-            Rows::Npy(rows) => rows.advance()?,
-        };
-        let Some(counts) = counts else {
+        let Some(counts) = self.rows.advance()? else {
             return match self.count {
                 0 => Err(Diagnostic::new(&self.file, "the log has a header and no rows").into()),
                 _ => Ok(None),

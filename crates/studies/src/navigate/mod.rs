@@ -1,5 +1,7 @@
-//! The navigate study: a recorded log, levelled and turned to north by its own sensors, then free inertial navigation.
+//! The navigate study: a recorded log, levelled and turned to north by its own sensors, then free inertial navigation;
+//! or with measurements beside it, see [`aided`].
 
+pub mod aided;
 mod figures;
 mod pass;
 mod report;
@@ -34,7 +36,7 @@ pub fn run(scenario: &Scenario, context: &Context) -> Result<Record, Error> {
     let file = find(&navigate.log, context.data.as_deref(), &scenario.file)?;
     let mut pass = Pass::new(&plan);
     for sample in LogReader::open(&navigate.log, &file)?.watched(context.progress) {
-        pass.sample(&sample?).map_err(|fault| no_attitude(navigate, &file, fault))?;
+        pass.sample(&sample?).map_err(|fault| no_attitude(navigate.align.window, &file, fault))?;
     }
     let Some(outcome) = pass.finish() else {
         let (begin, end) = (navigate.align.window[0], navigate.align.window[1]);
@@ -66,8 +68,8 @@ fn plan(navigate: &Navigate, every: Option<f64>) -> Plan {
     }
 }
 
-fn no_attitude(navigate: &Navigate, file: &std::path::Path, fault: pass::NoAttitude) -> Error {
-    let [begin, end] = navigate.align.window;
+fn no_attitude(window: [f64; 2], file: &std::path::Path, fault: pass::NoAttitude) -> Error {
+    let [begin, end] = window;
     let help = "`log.scale`, `log.content` and `log.axes` say what a row means; `start.position` where it was recorded";
     Diagnostic::new(file, format!("no attitude from the window {begin} s to {end} s: {}", fault.problem))
         .expected(fault.expected)

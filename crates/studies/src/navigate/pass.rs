@@ -32,7 +32,7 @@ pub struct Mean {
 }
 
 impl Mean {
-    fn add(&mut self, sample: &LogSample) {
+    pub fn add(&mut self, sample: &LogSample) {
         self.count += 1;
         self.dtheta += sample.increments.dtheta;
         self.dv += sample.increments.dv;
@@ -80,6 +80,30 @@ pub struct NoAttitude {
 /// vehicle at rest: a wrong scale or a wrong column, not a sensor error.
 const FORCE_TOLERANCE: f64 = 0.1;
 
+/// Attitude at rest from the averages of a window of samples of `dt` (s): TRIAD, specific force first.
+pub fn attitude(
+    window: &Mean,
+    dt: f64,
+    position: Geodetic,
+    gravity: Gravity,
+) -> Result<Rot<T, B>, NoAttitude> {
+    let f_b = window.f_b(dt);
+    let g = gravity.gravity_t(position).norm();
+    if (f_b.norm() - g).abs() > FORCE_TOLERANCE * g {
+        return Err(NoAttitude {
+            problem: "the mean specific force is not that of a vehicle at rest".into(),
+            expected: format!("about {g:.4} m/s², gravity at the start"),
+            found: format!("{:.6} m/s²", f_b.norm()),
+        });
+    }
+    let omega = Rate::<B, I, B>::claim(window.omega_b(dt));
+    triad(f_b, omega, position, gravity).map_err(|e| NoAttitude {
+        problem: e.to_string(),
+        expected: "an angular rate of about 15 deg/h that has a horizontal part".into(),
+        found: format!("{:?} rad/s along body axes", omega.as_vec3().as_array()),
+    })
+}
+
 impl<'a> Pass<'a> {
     pub fn new(plan: &'a Plan) -> Self {
         Pass {
@@ -102,7 +126,11 @@ impl<'a> Pass<'a> {
                 self.window.add(sample);
             }
             if k == end {
-                let pva = Pva { position: plan.position, v_t: Vec3::ZERO, c_tb: self.attitude()? };
+                let pva = Pva {
+                    position: plan.position,
+                    v_t: Vec3::ZERO,
+                    c_tb: attitude(&self.window, plan.dt, plan.position, plan.gravity)?,
+                };
                 self.navigator = Some(Navigator::new(&pva, &plan.mechanization, plan.vertical, plan.dt));
                 self.rows.push((k as f64 * plan.dt, pva));
             }
@@ -115,25 +143,6 @@ impl<'a> Pass<'a> {
             }
         }
         Ok(())
-    }
-
-    /// Attitude from the window's averages.
-    fn attitude(&self) -> Result<Rot<T, B>, NoAttitude> {
-        let (plan, f_b) = (self.plan, self.window.f_b(self.plan.dt));
-        let g = plan.gravity.gravity_t(plan.position).norm();
-        if (f_b.norm() - g).abs() > FORCE_TOLERANCE * g {
-            return Err(NoAttitude {
-                problem: "the mean specific force is not that of a vehicle at rest".into(),
-                expected: format!("about {g:.4} m/s², gravity at the start"),
-                found: format!("{:.6} m/s²", f_b.norm()),
-            });
-        }
-        let omega = Rate::<B, I, B>::claim(self.window.omega_b(plan.dt));
-        triad(f_b, omega, plan.position, plan.gravity).map_err(|e| NoAttitude {
-            problem: e.to_string(),
-            expected: "an angular rate of about 15 deg/h that has a horizontal part".into(),
-            found: format!("{:?} rad/s along body axes", omega.as_vec3().as_array()),
-        })
     }
 
     /// The rows, if the log went beyond its window; the last whole update is always one of them.

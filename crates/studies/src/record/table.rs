@@ -300,6 +300,32 @@ pub mod columns {
     /// size of the source and that over the radius; and the factor by which the source may grow.
     pub const REQUIREMENT: [&str; 6] =
         ["t_s", "source", "radius_m", "derivative_m", "part_ratio", "may_grow_ratio"];
+    /// `sigmas.csv` of a navigation with a filter: its own standard deviations of position, velocity and attitude.
+    pub const SIGMAS: [&str; 10] = [
+        "t_s",
+        "sigma_n_m",
+        "sigma_e_m",
+        "sigma_d_m",
+        "sigma_n_mps",
+        "sigma_e_mps",
+        "sigma_d_mps",
+        "sigma_phi_n_rad",
+        "sigma_phi_e_rad",
+        "sigma_phi_d_rad",
+    ];
+    /// `updates.csv` of a navigation with a filter, a row for each kind of measurement (`source`): scalar measurements
+    /// offered and refused, and mean normalized innovation squared of a scalar with its 99 % band.
+    pub const UPDATES: [&str; 6] =
+        ["source", "rows_count", "refused_count", "nis_ratio", "nis_low_ratio", "nis_high_ratio"];
+    /// `innovations.csv`: of each scalar measurement (`source`) computed minus measured, its predicted standard deviation
+    /// and their ratio, the normalized innovation squared of the whole measurement, and whether the gate let it pass. The
+    /// first two are in m, m/s, rad or rad/s.
+    pub const INNOVATIONS: [&str; 7] =
+        ["t_s", "source", "innovation", "sigma", "normalized_ratio", "nis", "accepted"];
+    /// `states.csv`: the filter's estimate of each state of the error sources (`source`) and its standard deviation, SI.
+    pub const STATES: [&str; 4] = ["t_s", "source", "estimate", "sigma"];
+    /// `nees.csv`: normalized error squared of the navigation errors against the reference, a degree of freedom.
+    pub const NEES: [&str; 2] = ["t_s", "nees_ratio"];
     /// `way` of `errors.csv`: of a drift study, then of an alignment; then of a budget (with `exact`).
     pub const WAYS: [&str; 14] = [
         "nonlinear",

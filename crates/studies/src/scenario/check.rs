@@ -5,6 +5,7 @@ use schuler_imu::Unit;
 use schuler_strapdown::Coning;
 
 use super::{
+    aided::Common,
     de::At,
     document::{Document, NodeId, Spot},
     quantity::Range,
@@ -33,7 +34,7 @@ impl Document {
         let study = match w.study.value {
             StudyKind::Imu => Study::Imu(self.imu_study(w)?),
             StudyKind::Drift => Study::Drift(self.drift(w)?),
-            StudyKind::Navigate => Study::Navigate(self.navigate(w)?),
+            StudyKind::Navigate => self.navigate(w)?,
             StudyKind::Align => Study::Align(self.align_study(w)?),
             StudyKind::Simulate => Study::Simulate(Box::new(self.simulate(w)?)),
             StudyKind::Budget => Study::Budget(Box::new(self.budget(w)?)),
@@ -43,6 +44,7 @@ impl Document {
             Study::Imu(s) => s.imu.rate,
             Study::Drift(s) => s.imu.rate,
             Study::Navigate(s) => s.log.rate,
+            Study::Aided(s) => s.log.rate,
             Study::Allan(log) => log.rate,
             Study::Align(s) => s.rate(),
             Study::Simulate(s) => s.imu.rate,
@@ -66,7 +68,7 @@ impl Document {
             key.as_ref().map(|k| k.node)
         }
         use StudyKind::{Align, Allan, Budget, Drift, Imu, Navigate, Simulate};
-        let keys: [(Option<NodeId>, &[StudyKind]); 11] = [
+        let keys: [(Option<NodeId>, &[StudyKind]); 12] = [
             (node(&w.motion), &[Imu, Drift, Simulate, Align, Budget]),
             (node(&w.imu), &[Imu, Drift, Simulate, Align, Budget]),
             (node(&w.gravity), &[Simulate]),
@@ -75,6 +77,7 @@ impl Document {
             (node(&w.mechanization), &[Drift, Navigate, Align, Budget]),
             (node(&w.log), &[Navigate, Allan, Align]),
             (node(&w.align), &[Navigate]),
+            (node(&w.filter), &[Navigate]),
             (node(&w.alignment), &[Align]),
             (node(&w.budget), &[Budget]),
             (w.output.as_ref().and_then(|output| node(&output.value.allan)), &[Imu]),
@@ -133,10 +136,23 @@ impl Document {
         })
     }
 
-    fn navigate(&self, w: &written::Scenario) -> Result<Navigate, Diagnostic> {
-        let log = self.required_log(w, "navigate")?;
-        let align =
-            self.required(&w.align, "align", "navigate", "align: { method: triad, window: [0 s, 300 s] }")?;
+    fn navigate(&self, w: &written::Scenario) -> Result<Study, Diagnostic> {
+        let log = self.imu_log(self.required_log(w, "navigate")?)?;
+        let duration =
+            w.duration.as_ref().map(|d| self.quantity(d, Unit::SECOND, Range::Positive)).transpose()?;
+        let start = self.required_start(w, "navigate")?;
+        let mechanization = self.mechanization(w, "navigate")?;
+        if let Some(filter) = &w.filter {
+            let align = w.align.as_ref().map(|align| self.align_window(align)).transpose()?;
+            let common = Common { log, start, align, mechanization, duration };
+            return Ok(Study::Aided(Box::new(self.aided(w, filter, common)?)));
+        }
+        let example = "align: { method: triad, window: [0 s, 300 s] }";
+        let align = self.align_window(self.required(&w.align, "align", "navigate", example)?)?;
+        Ok(Study::Navigate(Navigate { log, start, align, mechanization, duration }))
+    }
+
+    fn align_window(&self, align: &At<written::Align>) -> Result<Align, Diagnostic> {
         let written::Method::Triad = align.value.method.value;
         let window = self.quantities(&align.value.window, Unit::SECOND)?;
         if !(0.0 <= window[0] && window[0] < window[1]) {
@@ -148,15 +164,7 @@ impl Document {
                 .expected("begin and end in seconds from the first sample")
                 .example("[0 s, 300 s]"));
         }
-        let duration =
-            w.duration.as_ref().map(|d| self.quantity(d, Unit::SECOND, Range::Positive)).transpose()?;
-        Ok(Navigate {
-            log: self.imu_log(log)?,
-            start: self.required_start(w, "navigate")?,
-            align: Align { window },
-            mechanization: self.mechanization(w, "navigate")?,
-            duration,
-        })
+        Ok(Align { window })
     }
 
     fn required_log<'w>(

@@ -68,9 +68,17 @@ impl Document {
             StudyKind::Align => {
                 [&columns::ERRORS[3..], &columns::CONSISTENCY[2..], &columns::WINDOWS[2..]].concat()
             }
-            StudyKind::Navigate => {
-                [&columns::TRAJECTORY[..], &columns::ERRORS[3..], &columns::LOG[2..]].concat()
-            }
+            StudyKind::Navigate => [
+                &columns::TRAJECTORY[..],
+                &columns::ERRORS[3..],
+                &columns::LOG[2..],
+                &columns::SIGMAS[1..],
+                &columns::UPDATES[1..],
+                &["normalized_ratio"],
+                &columns::NEES[1..],
+                &columns::IMU_ERRORS[1..],
+            ]
+            .concat(),
         };
         let known: Vec<&str> =
             known.into_iter().filter(|name| columns::unit(name).is_some() && *name != "t_s").collect();

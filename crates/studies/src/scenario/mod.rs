@@ -3,6 +3,7 @@
 //! Text becomes a `Document` (places), overrides change it, serde reads the written form (keys and words),
 //! and checking it gives the valid form: SI, radians, every invariant. The only way in is [`Scenario::load`].
 
+mod aided;
 mod alignment;
 mod budget;
 mod check;
@@ -30,6 +31,7 @@ mod valid_motion;
 mod written;
 mod written_motion;
 
+pub use aided::valid::{Aided, Condition, ConditionKind, Measured, MeasuredKind, Reference};
 pub use alignment::valid::{
     AlignStudy, Coarse, FilterSettings, Knock, Method, MethodKind, Origin, Strategy, StrategyKind, Velocity,
 };

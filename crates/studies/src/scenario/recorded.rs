@@ -24,7 +24,7 @@ pub(super) fn content(content: written::Content) -> Content {
     }
 }
 
-fn column(title: &Title) -> ColumnRef {
+pub(super) fn column(title: &Title) -> ColumnRef {
     match title {
         Title::Name(name) => ColumnRef::Name(name.clone()),
         Title::Number(number) => ColumnRef::Number(*number as usize),

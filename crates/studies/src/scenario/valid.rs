@@ -7,6 +7,7 @@ use schuler_frames::{Euler, Geodetic, Gravity};
 use schuler_imu::Spec;
 use schuler_strapdown::Coning;
 
+use super::aided::valid::Aided;
 use super::alignment::valid::AlignStudy;
 use super::budget::valid::Budget;
 use super::valid_motion::{Motion, Simulate};
@@ -40,6 +41,8 @@ pub enum Study {
     Drift(Drift),
     /// A recorded log.
     Navigate(Navigate),
+    /// A recorded log with measurements beside it.
+    Aided(Box<Aided>),
     /// Allan deviations of a recorded log, and the error model in them.
     Allan(LogSpec),
     /// Methods of alignment side by side.
@@ -59,6 +62,7 @@ impl Scenario {
             Study::Align(align) => Some(&align.mechanization),
             Study::Budget(budget) => Some(&budget.mechanization),
             Study::Navigate(navigate) => Some(&navigate.mechanization),
+            Study::Aided(aided) => Some(&aided.mechanization),
         }
     }
 }
@@ -79,7 +83,7 @@ impl Study {
         match self {
             Study::Imu(_) => "imu",
             Study::Drift(_) => "drift",
-            Study::Navigate(_) => "navigate",
+            Study::Navigate(_) | Study::Aided(_) => "navigate",
             Study::Allan(_) => "allan",
             Study::Align(_) => "align",
             Study::Simulate(_) => "simulate",

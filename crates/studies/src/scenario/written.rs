@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{
+    aided::written::AidedFilter,
     alignment::written::Alignment,
     budget::written::Budget,
     de::At,
@@ -44,6 +45,8 @@ pub struct Scenario {
     pub log: Option<At<Log>>,
     /// How the initial attitude is found from the log.
     pub align: Option<At<Align>>,
+    /// Measurements beside the log, and the filter that takes them.
+    pub filter: Option<At<AidedFilter>>,
     /// Methods of alignment and what they work with.
     pub alignment: Option<At<Alignment>>,
     /// What an error budget asks.

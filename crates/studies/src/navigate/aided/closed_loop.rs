@@ -1,0 +1,128 @@
+//! A navigator and an error-state filter, closed after every measurement.
+
+use schuler_frames::{Gravity, Vec3};
+use schuler_imu::{Instrument, Truth};
+use schuler_strapdown::filter::{
+    Accumulator, Filter, FilterError, Form, Gate, Measurement, Model, NavStates, Now, Outcome,
+};
+use schuler_strapdown::{ErrorDynamics, Increments, LocalLevel, NavError, Pva, Vertical};
+
+use crate::scenario::Aided;
+
+/// Longest interval over which a transition is gathered, s.
+const LONGEST: f64 = 1.0;
+
+/// A local-level navigator whose errors a filter with room for `N` states takes out.
+///
+/// Between measurements [`ClosedLoop::advance`] takes the increments of the IMU, freed of the sensor errors estimated so
+/// far, and gathers the transition; a measurement within a sample is met by advancing with a part of its increments.
+#[derive(Clone, Debug)]
+pub struct ClosedLoop<const N: usize> {
+    filter: Filter<N>,
+    navigator: LocalLevel,
+    accumulator: Accumulator<N>,
+    gravity: Gravity,
+    vertical: Vertical,
+    /// What the sensors saw last, freed of the errors known, and its interval (s).
+    seen: (Truth, f64),
+}
+
+impl<const N: usize> ClosedLoop<N> {
+    /// Starts at `pva` with the settings of `aided`.
+    ///
+    /// # Errors
+    /// The sources need more than `N` states, or a deviation is not one.
+    pub fn new(aided: &Aided, pva: &Pva, vertical: Vertical) -> Result<Self, FilterError> {
+        let nav = if vertical == Vertical::Held { NavStates::HELD } else { NavStates::ALL };
+        let mut filter = Filter::new(Model::new(aided.form, nav, &aided.spec)?, &aided.sigma)?;
+        if let Some(p) = aided.gate {
+            filter.gate = Gate::vector(p);
+        }
+        let gravity = aided.mechanization.gravity;
+        let accumulator = Accumulator::new(filter.model(), ErrorDynamics { gravity, vertical }, pva);
+        let navigator = LocalLevel::new(pva, gravity, vertical);
+        let seen = (Truth::rates([0.0; 3], [0.0; 3]), 1.0);
+        Ok(ClosedLoop { filter, navigator, accumulator, gravity, vertical, seen })
+    }
+
+    /// Goes on by the increments measured over `dt` (s).
+    #[inline]
+    pub fn advance(&mut self, measured: &Increments, dt: f64) {
+        let seen = Truth::increments(measured.dtheta.as_array(), measured.dv.as_array());
+        let error = |instrument| Vec3::claim(self.filter.sensor_error(instrument, &seen, dt));
+        let freed = Increments {
+            dtheta: measured.dtheta - error(Instrument::Gyro) * dt,
+            dv: measured.dv - error(Instrument::Accel) * dt,
+        };
+        self.navigator.step(&freed, dt);
+        self.accumulator.step(self.filter.model(), &self.navigator.pva(), &freed, dt);
+        self.seen = (Truth::increments(freed.dtheta.as_array(), freed.dv.as_array()), dt);
+        if self.accumulator.elapsed() > LONGEST - 0.5 * dt {
+            self.close();
+        }
+    }
+
+    /// Brings the covariance to the time of the navigator.
+    pub fn close(&mut self) {
+        if self.accumulator.elapsed() > 0.0 {
+            let step = self.accumulator.close(self.filter.model());
+            self.filter.propagate(&step);
+        }
+    }
+
+    /// Takes a measurement, and its estimates out of navigator and sensors.
+    ///
+    /// # Errors
+    /// Numbers that make no sense.
+    pub fn measure(&mut self, measurement: &dyn Measurement) -> Result<Outcome, FilterError> {
+        self.close();
+        let pva = self.navigator.pva();
+        let outcome = self.filter.update(measurement, &Now { pva, seen: self.seen.0, dt: self.seen.1 })?;
+        if outcome.accepted[..outcome.len].contains(&true) {
+            let pva = self.filter.feedback(&pva);
+            self.navigator = LocalLevel::new(&pva, self.gravity, self.vertical);
+            self.accumulator.begin(self.filter.model(), &pva);
+        }
+        Ok(outcome)
+    }
+
+    /// State of the navigator.
+    pub fn pva(&self) -> Pva {
+        self.navigator.pva()
+    }
+
+    /// Standard deviations of the nine navigation errors, zero where the vertical channel is held. Those of the last
+    /// [`ClosedLoop::close`].
+    pub fn sigma(&self) -> [f64; 9] {
+        use schuler_strapdown::filter::NavState;
+        NavState::ALL.map(|state| self.filter.model().nav_index(state).map_or(0.0, |k| self.filter.sigma(k)))
+    }
+
+    /// Errors of gyros and accelerometers along body axes as estimated, rad/s and m/s².
+    pub fn sensor_errors(&self) -> [[f64; 3]; 2] {
+        Instrument::ALL.map(|i| self.filter.sensor_error(i, &self.seen.0, self.seen.1))
+    }
+
+    /// Name, estimate and standard deviation of each state of the error sources.
+    pub fn states(&self) -> impl Iterator<Item = (String, f64, f64)> {
+        let model = self.filter.model();
+        let estimate = self.filter.estimate();
+        (model.nav_len()..model.len())
+            .map(move |k| (model.name(k).to_string(), estimate[k], self.filter.sigma(k)))
+    }
+
+    /// Normalized error squared of the navigation errors against their true value `error`, and its degrees of freedom.
+    pub fn nees(&self, error: &NavError) -> Option<(f64, usize)> {
+        let x = nalgebra::SVector::<f64, 9>::from(error.as_array());
+        let x = Form::from_phi(self.filter.model().form(), &self.pva()) * x;
+        let mut states = Vec::new();
+        let mut truth = Vec::new();
+        for (k, state) in schuler_strapdown::filter::NavState::ALL.into_iter().enumerate() {
+            if let Some(index) = self.filter.model().nav_index(state) {
+                states.push(index);
+                truth.push(x[k]);
+            }
+        }
+        Some((self.filter.nees(&states, &truth)?, states.len()))
+    }
+}
