@@ -45,18 +45,15 @@
 mod accumulate;
 mod block;
 pub mod chi_square;
-mod close;
 mod dual;
 mod error;
 mod estimator;
 mod exact;
 mod gate;
-mod gather;
 pub mod measurement;
 mod model;
 mod observability;
 mod observation;
-mod padded;
 mod propagation;
 mod reset;
 mod row;
@@ -66,7 +63,6 @@ mod small_process;
 mod smoother;
 mod states;
 pub mod strategy;
-mod transport;
 
 pub use accumulate::Accumulator;
 pub use dual::Dual;

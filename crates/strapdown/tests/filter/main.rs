@@ -2,7 +2,6 @@
 
 mod accumulated;
 mod common;
-mod consistency;
 mod covariance_table;
 mod dual;
 mod laws;
