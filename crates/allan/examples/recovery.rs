@@ -16,8 +16,8 @@ const HEAD: &str = "# Recovery of known noise
 
 Made by `cargo run --release -p schuler-allan --example recovery`: 200 seeded logs of each case, six hours at 10 Hz,
 exact Gaussian noise. `bound` is the Cramér-Rao bound of the relative standard deviation, `rms` the relative root mean
-square error (a term that was not found counts as 100 %), `coverage` the share of runs whose 95 % interval, or upper
-limit, holds the truth. A false term is one in the model that is not in the truth. `eq. (3)` is plain least squares on the
+square error (a term that was not found counts as 100 %), `coverage` the share of runs whose 95 % interval holds the
+truth (from zero on for a term that was not found). A false term is one in the model that is not in the truth. `eq. (3)` is plain least squares on the
 same curves (`sun_eq3`): error where the result is real, share of runs where it is imaginary.
 
 | case | term | bound % | rms % | rms / bound | found % | coverage % | eq. (3) rms % | imaginary % |

@@ -6,32 +6,51 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::covariance::{CovarianceTable, Layout};
 use crate::subset::{Problem, SubsetFit};
-use crate::{AllanError, Curve, Term, quantile};
+use crate::{AllanError, Curve, Term, cramer_rao, quantile};
 
 /// What a term must gain in twice the log likelihood to be accepted: three standard deviations. On simulated
-/// logs this lets 1 to 2 % of false terms in (recovery.md).
+/// logs at most 3 % get a false term (recovery.md).
 const PRICE: f64 = 9.0;
 /// A ramp has no scatter of its own and so fits the last, widely scattering points too eagerly.
-const PRICE_RAMP: f64 = 13.0;
+const PRICE_RAMP: f64 = 30.0;
 /// A term with a shape has two parameters, found among many.
-const PRICE_SHAPE: f64 = 22.0;
+const PRICE_SHAPE: f64 = 25.0;
+/// What a term must gain beyond that where not even the Cramér-Rao bound tells its size. A little flicker and a little
+/// random walk look alike then: what can be sized is the likelier find, and next to it flicker, which instruments have at
+/// shorter times than they wander.
+const PRICE_UNSEEN: f64 = 4.0;
+const PRICE_UNSEEN_WALK: f64 = 10.0;
+/// Largest Cramér-Rao bound, relative, of a term that a log can be said to show.
+pub(crate) const OBSERVABLE: f64 = 0.30;
 /// For intervals, subsets count with this milder price: what nearly paid for itself still adds to what is unknown.
 const PRICE_INTERVAL: f64 = 2.0;
+const PRICE_INTERVAL_RAMP: f64 = 6.0;
+const PRICE_INTERVAL_SHAPE: f64 = 15.0;
 
 /// The best subset, and all feasible ones with their weights.
 pub(crate) struct Selection {
     pub problem: Problem,
     pub best: SubsetFit,
+    /// The best one if terms whose size cannot be told cost no more than others: can these terms explain the curve?
+    paid: SubsetFit,
     pub all: Vec<(f64, SubsetFit)>,
     /// Relative error of the model that the fit allows for.
     pub slack: f64,
 }
 
-fn price(term: Term, each: f64) -> f64 {
+fn price(term: Term) -> f64 {
     match term {
-        Term::Ramp => each + PRICE_RAMP - PRICE,
-        Term::Markov { .. } | Term::Sinusoid { .. } => each + PRICE_SHAPE - PRICE,
-        _ => each,
+        Term::Ramp => PRICE_RAMP,
+        Term::Markov { .. } | Term::Sinusoid { .. } => PRICE_SHAPE,
+        _ => PRICE,
+    }
+}
+
+fn price_interval(term: Term) -> f64 {
+    match term {
+        Term::Ramp => PRICE_INTERVAL_RAMP,
+        Term::Markov { .. } | Term::Sinusoid { .. } => PRICE_INTERVAL_SHAPE,
+        _ => PRICE_INTERVAL,
     }
 }
 
@@ -39,8 +58,8 @@ impl Selection {
     /// All subsets of `terms`.
     pub fn of(curve: &Curve, terms: &[Term], table: CovarianceTable, slack: f64) -> Result<Self, AllanError> {
         let problem = Problem::new(curve, terms, table, slack);
-        let score = |fit: &SubsetFit, each: f64| {
-            fit.deviance + fit.chosen.iter().map(|c| price(terms[*c], each)).sum::<f64>()
+        let score = |fit: &SubsetFit, price: fn(Term) -> f64| {
+            fit.deviance + fit.chosen.iter().map(|c| price(terms[*c])).sum::<f64>()
         };
         let fits: Vec<SubsetFit> = (1u32..1 << terms.len())
             .filter_map(|bits| {
@@ -49,14 +68,16 @@ impl Selection {
                 if chosen.len() < curve.points.len() { problem.fit(&chosen) } else { None }
             })
             .collect();
-        let best = fits.iter().min_by(|a, b| score(a, PRICE).total_cmp(&score(b, PRICE))).cloned();
-        let best = best.ok_or(AllanError::Fit(curve.points.len()))?;
-        let least = fits.iter().map(|f| score(f, PRICE_INTERVAL)).fold(f64::INFINITY, f64::min);
+        let scored: Vec<(f64, &SubsetFit)> = fits.iter().map(|f| (score(f, price), f)).collect();
+        let paid = cheapest(scored.clone(), |_| 0.0).ok_or(AllanError::Fit(curve.points.len()))?.clone();
+        let best =
+            cheapest(scored, |fit| unseen(curve, terms, fit)).map_or_else(|| paid.clone(), Clone::clone);
+        let least = fits.iter().map(|f| score(f, price_interval)).fold(f64::INFINITY, f64::min);
         let all: Vec<(f64, SubsetFit)> =
-            fits.into_iter().map(|f| ((0.5 * (least - score(&f, PRICE_INTERVAL))).exp(), f)).collect();
+            fits.into_iter().map(|f| ((0.5 * (least - score(&f, price_interval))).exp(), f)).collect();
         let whole: f64 = all.iter().map(|(w, _)| w).sum();
         let all = all.into_iter().map(|(w, f)| (w / whole, f)).collect();
-        Ok(Self { problem, best, all, slack })
+        Ok(Self { problem, best, paid, all, slack })
     }
 
     fn chosen_terms(&self) -> Vec<Term> {
@@ -65,21 +86,55 @@ impl Selection {
 
     /// Number of points less number of parameters.
     pub fn freedom(&self) -> usize {
-        let shaped = self.chosen_terms().iter().filter(|t| t.shape().is_some()).count();
-        self.problem.points().saturating_sub(self.best.chosen.len() + shaped).max(1)
+        self.freedom_of(&self.best)
+    }
+
+    fn freedom_of(&self, fit: &SubsetFit) -> usize {
+        let shaped = fit.chosen.iter().filter(|c| self.problem.terms[**c].shape().is_some()).count();
+        self.problem.points().saturating_sub(fit.chosen.len() + shaped).max(1)
     }
 
     /// Does the curve differ from the fit by more than chance, at this confidence?
     pub fn misfits(&self, confidence: f64) -> Result<bool, AllanError> {
         Ok(self.best.chi2 > quantile(self.freedom() as f64, confidence)?)
     }
+
+    /// Could these terms make the curve, at this confidence, were it not for a term whose size cannot be told?
+    fn explains(&self, confidence: f64) -> Result<bool, AllanError> {
+        Ok(self.paid.chi2 <= quantile(self.freedom_of(&self.paid) as f64, confidence)?)
+    }
+}
+
+/// The fit with the least score after what is added to it; the bounds behind that are costly, so they are asked for only
+/// while they can decide.
+fn cheapest(mut scored: Vec<(f64, &SubsetFit)>, extra: impl Fn(&SubsetFit) -> f64) -> Option<&SubsetFit> {
+    scored.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut best: Option<(f64, &SubsetFit)> = None;
+    for (score, fit) in scored {
+        if best.is_some_and(|(least, _)| least <= score) {
+            break;
+        }
+        let whole = score + extra(fit);
+        if best.is_none_or(|(least, _)| whole < least) {
+            best = Some((whole, fit));
+        }
+    }
+    best.map(|(_, fit)| fit)
+}
+
+/// The price of those terms of a fit whose size the log cannot tell.
+fn unseen(curve: &Curve, terms: &[Term], fit: &SubsetFit) -> f64 {
+    let chosen: Vec<Term> = fit.chosen.iter().map(|c| terms[*c]).collect();
+    let bounds = cramer_rao(&chosen, &fit.powers, curve.n_phase - 1, curve.tau0);
+    let unseen = chosen.iter().zip(bounds).filter(|(_, bound)| bound.is_some_and(|b| b > OBSERVABLE));
+    unseen.map(|(term, _)| if *term == Term::RandomWalk { PRICE_UNSEEN_WALK } else { PRICE_UNSEEN }).sum()
 }
 
 /// Power laws first; a Markov process and a sinusoid only if those leave a misfit, and each only if it pays.
 pub(crate) fn select(octaves: &FitData, half_octaves: &FitData) -> Result<Selection, AllanError> {
     let laws = Term::POWER_LAWS.to_vec();
     let plain = Selection::of(&octaves.curve, &laws, octaves.table.clone(), 0.0)?;
-    if !plain.misfits(0.99)? {
+    if plain.explains(0.99)? {
         return Ok(plain);
     }
     let found = with_shapes(half_octaves, 0.0)?;

@@ -131,7 +131,7 @@ fn comment(out: &mut String, p: &Parameter, axis: usize, axes: usize, instrument
     let what = if p.verdict == Verdict::NotObservable {
         format!("not observable from this log (about {})", quantity(p.value / size, text))
     } else if limit.is_finite() {
-        format!("not seen; below {} with 95 % confidence", quantity(limit, text))
+        format!("not seen; below {} with 97.5 % confidence", quantity(limit, text))
     } else {
         "not seen; this log sets no limit".to_owned()
     };
