@@ -1,5 +1,8 @@
 //! The injector: true motion in, measured motion out.
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, dispatch, f64x4};
+
 use crate::bank::{Bank, row_of};
 use crate::error::Error;
 use crate::random::{Level, STEPS};
@@ -156,8 +159,20 @@ impl Imu {
         for (instrument, errors) in Instrument::ALL.into_iter().zip(&mut self.errors) {
             self.sums.errors(instrument, &self.inputs, errors);
         }
+        if self.chains.is_some() {
+            return dispatch!(self.bank.level, simd => self.read_out_all(simd, step, samples));
+        }
         for (row, (truth, sample)) in truths.iter().zip(samples).enumerate() {
             self.finish(step + row as u64, row, truth, sample);
+        }
+    }
+
+    /// As [`Imu::read_out`], of all rows.
+    #[inline(always)]
+    fn read_out_all<S: Simd>(&mut self, simd: S, step: u64, samples: &mut [Sample; STEPS]) {
+        for (row, sample) in samples.iter_mut().enumerate() {
+            sample.dt = self.dt;
+            self.read_out(simd, step + row as u64, row, sample);
         }
     }
 
@@ -185,7 +200,7 @@ impl Imu {
         let dt = self.dt;
         sample.dt = dt;
         if self.chains.is_some() {
-            return self.read_out(step, row, sample);
+            return dispatch!(self.bank.level, simd => self.read_out(simd, step, row, sample));
         }
         let [omega_errors, f_errors] = &self.errors;
         for i in 0..3 {
@@ -209,21 +224,25 @@ impl Imu {
     }
 
     /// What the readout makes of the input and the sources' errors of step `step`.
-    fn read_out(&mut self, step: u64, row: usize, sample: &mut Sample) {
-        let (dt, rate) = (self.dt, self.rate);
+    #[inline(always)]
+    fn read_out<S: Simd>(&mut self, simd: S, step: u64, row: usize, sample: &mut Sample) {
         for (which, chain) in self.chains.iter().flatten().enumerate() {
             let instrument = Instrument::ALL[which];
-            let (total, increment, status) = match instrument {
-                Instrument::Gyro => (&mut sample.omega_error, &mut sample.dtheta, &mut sample.gyro),
-                Instrument::Accel => (&mut sample.f_error, &mut sample.dv, &mut sample.accel),
-            };
             let (u, e) = (self.inputs.seen_by(instrument).u(row), &self.errors[which]);
-            let input = [u[0] + e[0][row], u[1] + e[1][row], u[2] + e[2][row]];
+            let lanes = |[x, y, z]: [f64; 3]| f64x4::simd_from(simd, [x, y, z, 0.0]);
+            let (u, e) = (lanes(u), lanes([e[0][row], e[1][row], e[2][row]]));
             let normals = self.bank.readout_normals(step, instrument);
-            *status = chain.step(&mut self.state.readout[which], dt, input, normals, increment);
-            for i in 0..3 {
-                total[i] = increment[i] * rate - u[i];
-                self.readout_errors[which][i] = total[i] - e[i][row];
+            let (increment, status) = chain.step(&mut self.state.readout[which], self.dt, u + e, normals);
+            let total = increment * self.rate - u;
+            let of = |v: f64x4<S>| [v[0], v[1], v[2]];
+            self.readout_errors[which] = of(total - e);
+            match instrument {
+                Instrument::Gyro => {
+                    (sample.dtheta, sample.omega_error, sample.gyro) = (of(increment), of(total), status);
+                }
+                Instrument::Accel => {
+                    (sample.dv, sample.f_error, sample.accel) = (of(increment), of(total), status);
+                }
             }
         }
     }

@@ -101,17 +101,18 @@ fn word<S: Simd>(simd: S, words: &[f64], i: usize) -> S::u64s {
     S::f64s::from_slice(simd, &words[i * S::f64s::LEN..(i + 1) * S::f64s::LEN]).bitcast()
 }
 
-/// Philox4x32-10 on words that stand in the low halves of 64-bit lanes.
+/// Philox4x32-10 on words that stand in the low halves of 64-bit lanes. What comes into the high halves on the way stays
+/// there: a multiplication of two low halves is one instruction that does not look at them.
 #[inline(always)]
 fn philox<S: Simd>(simd: S, mut c: [S::u64s; 4], [mut k0, mut k1]: [u32; 2]) -> [S::u64s; 4] {
     let (m0, m1) = (S::u64s::splat(simd, 0xD251_1F53), S::u64s::splat(simd, 0xCD9E_8D57));
     for _ in 0..10 {
-        let (p0, p1) = (c[0] * m0, c[2] * m1);
-        c = [(p1 >> 32) ^ c[1] ^ u64::from(k0), p1 & WORD, (p0 >> 32) ^ c[3] ^ u64::from(k1), p0 & WORD];
+        let (p0, p1) = ((c[0] & WORD) * m0, (c[2] & WORD) * m1);
+        c = [(p1 >> 32) ^ c[1] ^ u64::from(k0), p1, (p0 >> 32) ^ c[3] ^ u64::from(k1), p0];
         k0 = k0.wrapping_add(0x9E37_79B9);
         k1 = k1.wrapping_add(0xBB67_AE85);
     }
-    c
+    [c[0] & WORD, c[1] & WORD, c[2] & WORD, c[3] & WORD]
 }
 
 #[inline(always)]

@@ -1,6 +1,9 @@
 use core::f64::consts::TAU;
 
+use fearless_simd::{Simd, f64x4};
 use libm::{exp, sincos, sqrt};
+
+use super::axes::{Axes, load, store};
 
 /// A second-order low pass: x'' + 2 zeta w x' + w² x = w² u with w = 2 pi `natural_frequency`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,16 +54,19 @@ impl LowPass {
         }
     }
 
-    /// Output of one axis over a step with input `u`; moves its state (x, x').
+    /// Output of the axes over a step with input `u`; moves their states (x, x').
     #[inline(always)]
-    pub fn step(&self, [x, v]: &mut [f64; 2], u: f64) -> f64 {
-        let (z, phi) = (*x - u, &self.phi);
-        let (z1, v1) = (phi[0][0] * z + phi[0][1] * *v, phi[1][0] * z + phi[1][1] * *v);
-        let mean = u + self.mean[0] * (z1 - z) + self.mean[1] * (v1 - *v);
-        (*x, *v) = (u + z1, v1);
+    pub fn step<S: Simd>(&self, simd: S, [x, v]: &mut [Axes; 2], u: f64x4<S>) -> f64x4<S> {
+        let (now, rate) = (load(simd, x), load(simd, v));
+        let (z, phi) = (now - u, &self.phi);
+        let (z1, v1) = (z * phi[0][0] + rate * phi[0][1], z * phi[1][0] + rate * phi[1][1]);
+        let mean = u + (z1 - z) * self.mean[0] + (v1 - rate) * self.mean[1];
+        let end = u + z1;
+        store(end, x);
+        store(v1, v);
         match self.sampling {
             Sampling::Mean => mean,
-            Sampling::Point => *x,
+            Sampling::Point => end,
         }
     }
 }

@@ -1,3 +1,7 @@
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x4};
+
+use super::axes::{Axes, axes, load, round, store};
 use super::bandwidth::LowPass;
 use super::faults::{Fault, Thresholds};
 use super::window::Window;
@@ -13,27 +17,31 @@ pub(crate) struct Chain {
     low_pass: Option<LowPass>,
     faults: Thresholds,
     /// Least significant bits in a unit of the output, per axis.
-    bits: [f64; 3],
+    bits: Axes,
+    /// One such bit, and the range, per axis.
+    size: Axes,
+    low: Axes,
+    high: Axes,
 }
 
 /// What changes in a readout from step to step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ChainState {
     started: bool,
-    filter: [[f64; 2]; 3],
+    filter: [Axes; 2],
     window: Window,
-    remainder: [f64; 3],
-    last: [f64; 3],
+    remainder: Axes,
+    last: Axes,
     stuck: u32,
 }
 
 impl ChainState {
     pub const START: ChainState = ChainState {
         started: false,
-        filter: [[0.0; 2]; 3],
+        filter: [[0.0; 4]; 2],
         window: Window::START,
-        remainder: [0.0; 3],
-        last: [0.0; 3],
+        remainder: [0.0; 4],
+        last: [0.0; 4],
         stuck: 0,
     };
 }
@@ -51,17 +59,28 @@ impl ChainState {
         let mut stuck = f64::from(self.stuck);
         each(&mut stuck);
         self.stuck = stuck as u32;
-        self.filter.as_flattened_mut().iter_mut().for_each(&mut each);
-        self.remainder.iter_mut().for_each(&mut each);
-        self.last.iter_mut().for_each(&mut each);
+        for i in 0..3 {
+            self.filter.iter_mut().for_each(|of| each(&mut of[i]));
+        }
+        self.remainder[..3].iter_mut().for_each(&mut each);
+        self.last[..3].iter_mut().for_each(&mut each);
         self.window.visit(&mut each);
     }
 }
 
 impl Chain {
     pub fn new(channel: Channel) -> Chain {
-        let bits = channel.lsb.map_or([0.0; 3], |lsb| lsb.size.map(|size| 1.0 / size));
-        Chain { channel, low_pass: None, faults: Thresholds::new(&channel.faults), bits }
+        let size = axes(channel.lsb.map_or([0.0; 3], |lsb| lsb.size));
+        let range = channel.range.unwrap_or_default();
+        Chain {
+            channel,
+            low_pass: None,
+            faults: Thresholds::new(&channel.faults),
+            bits: size.map(|size| if size == 0.0 { 0.0 } else { 1.0 / size }),
+            size,
+            low: axes(range.map(|r| r.0)),
+            high: axes(range.map(|r| r.1)),
+        }
     }
 
     /// Prepares for steps of `dt` seconds.
@@ -69,77 +88,71 @@ impl Chain {
         self.low_pass = self.channel.bandwidth.map(|b| LowPass::new(b, self.channel.sampling, dt));
     }
 
-    /// Turns the mean input over a step with all its errors into the increment that is put out.
-    #[inline]
-    pub fn step(
+    /// Turns the mean input over a step with all its errors into the increment that is put out, the axes in lanes.
+    #[inline(always)]
+    pub fn step<S: Simd>(
         &self,
         state: &mut ChainState,
         dt: f64,
-        mut mean: [f64; 3],
+        mut mean: f64x4<S>,
         [jitter, fault]: [f64; DRAWS],
-        out: &mut [f64; 3],
-    ) -> Status {
-        let (c, first) = (&self.channel, !state.started);
+    ) -> (f64x4<S>, Status) {
+        let (c, simd, first) = (&self.channel, mean.simd, !state.started);
         state.started = true;
         if let Some(low_pass) = &self.low_pass {
-            for i in 0..3 {
-                if first {
-                    // Settled on its first input.
-                    state.filter[i] = [mean[i], 0.0];
-                }
-                mean[i] = low_pass.step(&mut state.filter[i], mean[i]);
+            if first {
+                // Settled on its first input.
+                state.filter = [*mean, [0.0; 4]];
             }
+            mean = low_pass.step(simd, &mut state.filter, mean);
         }
         let mut duration = dt;
-        let mut x = [mean[0] * dt, mean[1] * dt, mean[2] * dt];
+        let mut x = mean * dt;
         if !c.timing.is_ideal() {
             (x, duration) = state.window.sample(&c.timing, dt, mean, jitter, first);
         }
         let mut status = Status::default();
-        if let Some(range) = &c.range {
-            for i in 0..3 {
-                let (low, high) = (range[i].0 * duration, range[i].1 * duration);
-                status.saturated[i] = x[i] < low || x[i] > high;
-                x[i] = if x[i] < low { low } else { x[i] };
-                x[i] = if x[i] > high { high } else { x[i] };
+        if c.range.is_some() {
+            let (low, high) = (load(simd, &self.low) * duration, load(simd, &self.high) * duration);
+            let (below, above) = (x.simd_lt(low), x.simd_gt(high));
+            let beyond = (below | above).to_bitmask();
+            for (i, saturated) in status.saturated.iter_mut().enumerate() {
+                *saturated = beyond >> i & 1 == 1;
             }
+            x = above.select(high, below.select(low, x));
         }
         if c.output == Output::Rates {
             // A device that puts out rates divides by the window that it believes in or has measured; over
             // an empty window it repeats itself.
-            for i in 0..3 {
-                x[i] = if duration > 0.0 { x[i] / duration } else { state.last[i] };
-            }
+            x = if duration > 0.0 { x / duration } else { load(simd, &state.last) };
         }
         if let Some(lsb) = &c.lsb {
-            for i in 0..3 {
-                let wanted = x[i] + if lsb.carry { state.remainder[i] } else { 0.0 };
-                x[i] = round(wanted * self.bits[i]) * lsb.size[i];
-                state.remainder[i] = wanted - x[i];
-            }
+            let wanted = if lsb.carry { x + load(simd, &state.remainder) } else { x + 0.0 };
+            x = round(wanted * load(simd, &self.bits)) * load(simd, &self.size);
+            store(wanted - x, &mut state.remainder);
         }
         let fault = self.faults.decide(fault);
         if state.stuck > 0 || fault != Fault::None {
-            self.fail(state, fault, &mut x, &mut status);
+            let mut failed = *x;
+            self.fail(state, fault, &mut failed, &mut status);
+            x = load(simd, &failed);
         }
         if !status.dropped {
-            state.last = x;
+            store(x, &mut state.last);
         }
-        let scale = if c.output == Output::Rates { dt } else { 1.0 };
-        (0..3).for_each(|i| out[i] = x[i] * scale);
-        status
+        (if c.output == Output::Rates { x * dt } else { x }, status)
     }
 
     /// What a fault makes of the sample `x`.
     #[cold]
-    fn fail(&self, state: &mut ChainState, fault: Fault, x: &mut [f64; 3], status: &mut Status) {
+    fn fail(&self, state: &mut ChainState, fault: Fault, x: &mut Axes, status: &mut Status) {
         match fault {
             _ if state.stuck > 0 => {
                 state.stuck -= 1;
                 (status.stuck, *x) = (true, state.last);
             }
             Fault::None => {}
-            Fault::Drop => (status.dropped, *x) = (true, [0.0; 3]),
+            Fault::Drop => (status.dropped, *x) = (true, [0.0; 4]),
             Fault::Repeat => (status.repeated, *x) = (true, state.last),
             Fault::Stick => {
                 state.stuck = self.channel.faults.stuck_samples.saturating_sub(1);
@@ -147,13 +160,4 @@ impl Chain {
             }
         }
     }
-}
-
-/// The nearest integer, and the even one of two, without a branch: numbers from 2^52 on are integers, and
-/// adding that number leaves no room for a fraction.
-#[inline(always)]
-fn round(x: f64) -> f64 {
-    const INTEGERS: f64 = 4_503_599_627_370_496.0;
-    let size = x.abs();
-    if size < INTEGERS { ((size + INTEGERS) - INTEGERS).copysign(x) } else { x }
 }

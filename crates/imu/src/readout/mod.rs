@@ -4,6 +4,7 @@
 
 use crate::error::Error;
 
+mod axes;
 mod bandwidth;
 mod chain;
 mod faults;

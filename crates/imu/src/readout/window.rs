@@ -1,3 +1,7 @@
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x4};
+
+use super::axes::{Axes, load, store};
 use super::need;
 use crate::error::Error;
 
@@ -31,7 +35,7 @@ const LENGTH: usize = 32;
 /// The last intervals of one instrument, and how far the samples lag behind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Window {
-    intervals: [(f64, [f64; 3]); LENGTH],
+    intervals: [(f64, Axes); LENGTH],
     newest: usize,
     /// Age of the end of the last window, s.
     age: f64,
@@ -39,27 +43,28 @@ pub(super) struct Window {
 
 impl Window {
     /// Before the first interval: everything older is the same as that.
-    pub const START: Window = Window { intervals: [(0.0, [0.0; 3]); LENGTH], newest: 0, age: 0.0 };
+    pub const START: Window = Window { intervals: [(0.0, [0.0; 4]); LENGTH], newest: 0, age: 0.0 };
 
     /// Takes in an interval; returns the integral over the window that is sampled and its length.
-    #[inline]
-    pub fn sample(
+    #[inline(always)]
+    pub fn sample<S: Simd>(
         &mut self,
         timing: &Timing,
         dt: f64,
-        mean: [f64; 3],
+        mean: f64x4<S>,
         normal: f64,
         first: bool,
-    ) -> ([f64; 3], f64) {
+    ) -> (f64x4<S>, f64) {
         if first {
-            (self.intervals, self.age) = ([(dt, mean); LENGTH], timing.delay);
+            (self.intervals, self.age) = ([(dt, *mean); LENGTH], timing.delay);
         }
         self.newest = (self.newest + 1) % LENGTH;
-        self.intervals[self.newest] = (dt, mean);
+        self.intervals[self.newest].0 = dt;
+        store(mean, &mut self.intervals[self.newest].1);
         let from = self.age + dt;
         let to = (timing.delay + timing.jitter * normal).clamp(0.0, from);
         self.age = to;
-        (self.integral(to, from), from - to)
+        (self.integral(mean.simd, to, from), from - to)
     }
 
     #[cfg(feature = "serde")]
@@ -74,20 +79,20 @@ impl Window {
         self.newest = newest as usize % LENGTH;
         for (dt, mean) in &mut self.intervals {
             each(dt);
-            mean.iter_mut().for_each(&mut each);
+            mean[..3].iter_mut().for_each(&mut each);
         }
     }
 
     /// Integral over the ages from `young` to `old`.
-    #[inline]
-    fn integral(&self, young: f64, old: f64) -> [f64; 3] {
-        let (mut sum, mut age) = ([0.0; 3], 0.0);
+    #[inline(always)]
+    fn integral<S: Simd>(&self, simd: S, young: f64, old: f64) -> f64x4<S> {
+        let (mut sum, mut age) = (f64x4::splat(simd, 0.0), 0.0);
         for k in 0..LENGTH {
             let (dt, mean) = &self.intervals[(self.newest + LENGTH - k) % LENGTH];
             let end = if k + 1 == LENGTH { f64::INFINITY } else { age + dt };
             if end > young {
                 let overlap = old.min(end) - young.max(age);
-                (0..3).for_each(|i| sum[i] += overlap * mean[i]);
+                sum += load(simd, mean) * overlap;
             }
             age = end;
             if age >= old {
