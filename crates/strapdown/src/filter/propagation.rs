@@ -3,7 +3,7 @@
 use fearless_simd::{Level, dispatch};
 use nalgebra::{SMatrix, SVector};
 
-use super::transport::{Column, transport};
+use super::transport::{Column, Transport};
 use super::{Model, Row};
 
 /// The transition matrix and the process noise of all states over an interval, stored as sparse as they are:
@@ -158,30 +158,18 @@ impl<const N: usize> Propagation<N> {
     }
 
     fn carry_covariance(&self, p: &mut SMatrix<f64, N, N>, q: Option<&[[f64; N]; 9]>) {
-        let (m, n) = (self.m, self.n);
         let p = &mut p.data.0;
-        let mut w = [[0.0; N]; 9];
+        let kernel = Transport {
+            phi: &self.phi_n,
+            decay: &self.decay,
+            phi_s: &self.phi_s,
+            paired: &self.paired,
+            q,
+            m: self.m,
+            n: self.n,
+        };
         let level = self.level;
-        dispatch!(level, simd => transport(simd, &self.phi_n, &self.decay, q, p, &mut w, m, n));
-        // Blocks of two states; those of one have been scaled.
-        for s in (m..n).filter(|&s| self.paired[s]) {
-            let (t, [[a, b], [c, d]]) = (s + 1, self.phi_of(s));
-            for j in m..n {
-                let (u, v) = (p[s][j], p[t][j]);
-                (p[s][j], p[t][j]) = (a * u + b * v, c * u + d * v);
-            }
-            for j in m..n {
-                let (u, v) = (p[j][s], p[j][t]);
-                (p[j][s], p[j][t]) = (a * u + b * v, c * u + d * v);
-            }
-            p[s][t] = p[t][s];
-            for i in 0..m {
-                let (u, v) = (w[i][s], w[i][t]);
-                let (q_s, q_t) = q.map_or((0.0, 0.0), |q| (q[i][s], q[i][t]));
-                (p[i][s], p[i][t]) = (a * u + b * v + q_s, c * u + d * v + q_t);
-                (p[s][i], p[t][i]) = (p[i][s], p[i][t]);
-            }
-        }
+        dispatch!(level, simd => kernel.run(simd, p));
     }
 
     /// Q h'.
