@@ -7,6 +7,7 @@ use schuler_imu::{Instrument, Truth};
 
 use super::block::Block;
 use super::gather::{Columns, STEPS, Sums, Waiting, add, gather, middles};
+use super::propagation::SourceStates;
 use super::small_process::SmallStep;
 use super::{Model, Propagation};
 use crate::{ErrorDynamics, Increments, Pva};
@@ -41,8 +42,9 @@ pub struct Accumulator<const N: usize> {
     pub(super) t: f64,
     /// Integrals of f_t and of C.
     sums: Sums<[f64; STEPS]>,
-    /// Integral of the velocity.
+    /// Integral of the velocity, and the last one.
     pub(super) v0: Vec3<T>,
+    v: Vec3<T>,
     /// Integrals of the densities of white noise in t, gyro and accelerometer, where they depend on the attitude.
     pub(super) white: [Matrix3<f64>; 2],
     /// White densities that are the same along all axes and whatever the input.
@@ -65,8 +67,9 @@ pub struct Accumulator<const N: usize> {
     /// Covariance of each source state, over one interval, with those integrals of its coefficient that enter position,
     /// velocity and attitude.
     pub(super) with_integrals: [[f64; N]; 3],
-    /// Whether a driven block behaves as the driven one before it, on another axis of the same instrument.
-    pub(super) as_before: [bool; N],
+    /// Source states by themselves over one interval, and the runs of driven ones that behave the same.
+    pub(super) sources: SourceStates<N>,
+    pub(super) runs: [Option<Run>; N],
     /// Each block over one step, and over one interval, of the lengths that came last.
     of_step: [Option<SmallStep>; N],
     dt: f64,
@@ -86,6 +89,7 @@ impl<const N: usize> Accumulator<N> {
             t: 0.0,
             sums: Sums::of([0.0; STEPS]),
             v0: Vec3::ZERO,
+            v: pva.v_t,
             white: [Matrix3::zeros(); 2],
             isotropic: Instrument::ALL.map(|instrument| model.isotropic(instrument)),
             columns: Columns::NONE,
@@ -97,7 +101,8 @@ impl<const N: usize> Accumulator<N> {
                 || Instrument::ALL.iter().any(|i| model.isotropic(*i).is_none()),
             enters: [[0.0; N]; 3],
             with_integrals: [[0.0; N]; 3],
-            as_before: [false; N],
+            sources: SourceStates::identity(model),
+            runs: [None; N],
             of_step: [None; N],
             dt: 0.0,
             of_interval: [None; N],
@@ -125,22 +130,18 @@ impl<const N: usize> Accumulator<N> {
         (self.start, self.end) = (*pva, *pva);
         self.waiting.begin(pva.c_tb.as_quaternion());
         self.t = 0.0;
-        self.sums = Sums::of([0.0; STEPS]);
-        (self.v0, self.white) = (Vec3::ZERO, [Matrix3::zeros(); 2]);
-        let sources = model.len() - model.nav_len();
-        for rows in [&mut self.columns.phi, &mut self.columns.dv, &mut self.columns.dr] {
-            rows.iter_mut().for_each(|row| row[..sources].fill(0.0));
-        }
+        self.sums.fill([0.0; STEPS]);
+        (self.v0, self.v, self.white) = (Vec3::ZERO, pva.v_t, [Matrix3::zeros(); 2]);
+        self.columns.begin(&self.push_at_start);
         if self.special {
             (self.way, self.way_by_time) = ([[0.0; 3]; N], [[0.0; 3]; N]);
         }
-        for block in model.blocks() {
-            for (k, s) in block.states().enumerate() {
-                self.weight[s] = block.c[k];
+        if self.special {
+            for block in model.blocks() {
+                for (k, s) in block.states().enumerate() {
+                    self.weight[s] = block.c[k];
+                }
             }
-        }
-        for (push, start) in self.columns.push.iter_mut().zip(&self.push_at_start) {
-            push[..sources].copy_from_slice(&start[..sources]);
         }
     }
 
@@ -185,7 +186,9 @@ impl<const N: usize> Accumulator<N> {
             self.gather(model);
             self.fit_to(model, dt);
         }
-        self.v0 += (self.end.v_t + pva.v_t) * (0.5 * dt);
+        // By itself: to read it out of `end` would wait for that to be written.
+        self.v0 += (self.v + pva.v_t) * (0.5 * dt);
+        self.v = pva.v_t;
         self.end = *pva;
         self.t += dt;
         self.waiting.push(pva.c_tb.as_quaternion(), increments.dv.as_array(), dt);
@@ -315,9 +318,15 @@ impl<const N: usize> Accumulator<N> {
     fn fit_interval(&mut self, model: &Model<N>) {
         self.interval = self.t;
         let first = model.nav_len();
-        let mut before = None;
+        self.runs = [None; N];
+        let (mut count, mut before) = (0, None);
         for (number, block) in model.blocks().enumerate() {
             let step = SmallStep::new(block, self.t);
+            for (k, s) in block.states().enumerate() {
+                for l in 0..block.len {
+                    self.sources.set(s, l, block.len == 2, step.phi[k][l], step.q[(3 + k, 3 + l)]);
+                }
+            }
             if let (Some(instrument), true) = (block.instrument(), block.is_driven()) {
                 let z = match instrument {
                     Instrument::Gyro => [0, 1, 2],
@@ -328,13 +337,33 @@ impl<const N: usize> Accumulator<N> {
                         self.with_integrals[kind][s - first] = step.q[(z, 3 + k)];
                     }
                 }
-                let now = (instrument, step.q.fixed_view::<3, 3>(0, 0).into_owned());
-                self.as_before[number] = before == Some(now);
+                let start = block.first - first;
+                let now = (instrument, block.len, step.q.fixed_view::<3, 3>(0, 0).into_owned());
+                match self.runs[..count].last_mut() {
+                    Some(Some(run)) if before == Some(now) && run.end == start => run.end += block.len,
+                    _ => {
+                        let end = start + block.len;
+                        self.runs[count] =
+                            Some(Run { instrument, number, first: start, end, len: block.len });
+                        count += 1;
+                    }
+                }
                 before = Some(now);
             }
             self.of_interval[number] = Some(step);
         }
     }
+}
+
+/// Driven blocks of one instrument, side by side, that behave as the one of that `number`: their source states.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Run {
+    pub instrument: Instrument,
+    pub number: usize,
+    pub first: usize,
+    pub end: usize,
+    /// States of each block.
+    pub len: usize,
 }
 
 /// The row of weights of a block times a matrix of it.

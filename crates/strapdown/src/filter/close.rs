@@ -14,6 +14,7 @@ impl<const N: usize> Accumulator<N> {
     pub(super) fn finish(&self, model: &Model<N>, sums: &Sums<f64>, out: &mut Propagation<N>) {
         let t = self.t;
         out.dt = t;
+        out.sources = self.sources.clone();
         let force = Vector3::from(sums.gained) / t;
         let slow = self.slow(model, force);
         let level = self.level;
@@ -92,48 +93,35 @@ impl<const N: usize> Accumulator<N> {
         let fast = Fast::new(simd, force, self.down());
         let mut q = self.white_noise(simd, model, sums, &fast);
         let along = self.noise_of_sources(simd, model, sums, out);
-        let mut group = None;
-        let mut spread = Padded::zero(simd);
-        for (number, block) in model.blocks().enumerate().filter(|(_, b)| b.len > 0) {
-            let Some(step) = &self.of_interval[number] else { continue };
-            for (k, s) in block.states().enumerate() {
-                for l in 0..block.len {
-                    out.set_source(s, l, step.phi[k][l], step.q[(3 + k, 3 + l)]);
-                }
+        for run in self.runs.iter().map_while(Option::as_ref) {
+            let mut spread = Padded::zero(simd);
+            for s in (run.first..run.end).step_by(run.len) {
+                spread.add_square(f64x4::simd_from(simd, [along[0][s], along[1][s], along[2][s], 0.0]));
             }
-            let (Some(instrument), true) = (block.instrument(), block.is_driven()) else { continue };
-            if !self.as_before[number] {
-                if let Some((instrument, number)) = group.replace((instrument, number)) {
-                    self.spread_noise(&mut q, &fast, instrument, number, spread);
-                }
-                spread = Padded::zero(simd);
-            }
-            let s = block.first - nav;
-            spread.add_square(f64x4::simd_from(simd, [along[0][s], along[1][s], along[2][s], 0.0]));
-        }
-        if let Some((instrument, number)) = group {
-            self.spread_noise(&mut q, &fast, instrument, number, spread);
+            self.spread_noise(&mut q, &fast, run.instrument, run.number, spread);
         }
         // Of a column on or above the diagonal, as it is the same as a row on or below.
         let mut rows = [[0.0; 12]; 9];
-        let of_row = [
-            [Some(&q.rr), None, None],
-            [Some(&q.rv), Some(&q.vv), None],
-            [Some(&q.rp), Some(&q.vp), Some(&q.pp)],
-        ];
-        for (row, blocks) in rows.chunks_exact_mut(3).zip(of_row) {
-            for (j, row) in row.iter_mut().enumerate() {
-                for (i, block) in blocks.iter().enumerate() {
-                    if let Some(block) = block {
-                        block.columns()[j].store_slice(&mut row[3 * i..3 * i + 4]);
-                    }
-                }
+        q.rr.store(&mut rows[..3], 0);
+        q.rv.store(&mut rows[3..6], 0);
+        q.vv.store(&mut rows[3..6], 3);
+        q.rp.store(&mut rows[6..], 0);
+        q.vp.store(&mut rows[6..], 3);
+        q.pp.store(&mut rows[6..], 6);
+        for i in 1..9 {
+            for j in 0..i {
+                rows[j][i] = rows[i][j];
             }
         }
-        for i in 0..nav {
-            for j in 0..=i {
-                let value = if nav == 9 { rows[i][j] } else { rows[model.full()[i]][model.full()[j]] };
-                (out.q_n[i][j], out.q_n[j][i]) = (value, value);
+        if nav == 9 {
+            for (out, row) in out.q_n.iter_mut().zip(&rows) {
+                out[..9].copy_from_slice(&row[..9]);
+            }
+        } else {
+            for (out, &i) in out.q_n.iter_mut().zip(model.full()) {
+                for (out, &j) in out.iter_mut().zip(model.full()) {
+                    *out = rows[i][j];
+                }
             }
         }
     }

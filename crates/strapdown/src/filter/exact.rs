@@ -59,7 +59,7 @@ impl<const N: usize> Propagation<N> {
                     out.q_n[i][s] = q[(full_i, 9 + k)];
                 }
                 for l in 0..block.len {
-                    out.set_source(s, l, phi[(9 + k, 9 + l)], q[(9 + k, 9 + l)]);
+                    out.sources.set(s, l, block.len == 2, phi[(9 + k, 9 + l)], q[(9 + k, 9 + l)]);
                 }
             }
             for (i, &full_i) in full.iter().enumerate() {

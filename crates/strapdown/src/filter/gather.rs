@@ -14,6 +14,9 @@ pub(crate) struct Waiting {
     /// Velocity gained, m/s, body axes.
     dv: [[f64; STEPS]; 3],
     pub dt: [f64; STEPS],
+    /// Time of the middle of each step since the first began, and of the end of the last.
+    middle: [f64; STEPS],
+    elapsed: f64,
     /// Attitude in the middle of each step, by rows, and velocity gained in t: as [`middles`] finds them.
     pub c: [[[f64; STEPS]; 3]; 3],
     pub a: [[f64; STEPS]; 3],
@@ -28,6 +31,8 @@ impl Waiting {
             q: q.map(|q| [q; STEPS + 1]),
             dv: [[0.0; STEPS]; 3],
             dt: [0.0; STEPS],
+            middle: [0.0; STEPS],
+            elapsed: 0.0,
             c: [[[0.0; STEPS]; 3]; 3],
             a: [[0.0; STEPS]; 3],
         }
@@ -53,6 +58,8 @@ impl Waiting {
             row[k] = dv;
         }
         self.dt[k] = dt;
+        self.middle[k] = self.elapsed + 0.5 * dt;
+        self.elapsed += dt;
         self.count = k + 1;
     }
 
@@ -69,6 +76,7 @@ impl Waiting {
     #[inline]
     fn clear(&mut self) {
         self.count = 0;
+        self.elapsed = 0.0;
         self.dt = [0.0; STEPS];
         self.dv = [[0.0; STEPS]; 3];
     }
@@ -120,17 +128,23 @@ impl<X: Copy> Sums<X> {
     pub fn of(x: X) -> Self {
         Sums { gained: [x; 3], moved: [x; 3], third: [x; 3], turned: [[x; 3]; 3], turning: [[x; 3]; 3] }
     }
+
+    /// Sets all to `x`, each where it is.
+    #[inline]
+    pub fn fill(&mut self, x: X) {
+        for three in [&mut self.gained, &mut self.moved, &mut self.third] {
+            three.fill(x);
+        }
+        for nine in [&mut self.turned, &mut self.turning] {
+            nine.as_flattened_mut().fill(x);
+        }
+    }
 }
 
 impl Sums<[f64; STEPS]> {
     /// Over all lanes, in the same order whatever the machine.
+    #[inline]
     pub fn total(&self) -> Sums<f64> {
-        let total = |x: &[f64; STEPS]| {
-            let [a, b, c, d, e, f, g, h] = *x;
-            ((a + e) + (c + g)) + ((b + f) + (d + h))
-        };
-        let three = |x: &[[f64; STEPS]; 3]| [total(&x[0]), total(&x[1]), total(&x[2])];
-        let nine = |x: &[[[f64; STEPS]; 3]; 3]| [three(&x[0]), three(&x[1]), three(&x[2])];
         Sums {
             gained: three(&self.gained),
             moved: three(&self.moved),
@@ -141,18 +155,29 @@ impl Sums<[f64; STEPS]> {
     }
 }
 
+#[inline(always)]
+fn nine(x: &[[[f64; STEPS]; 3]; 3]) -> [[f64; 3]; 3] {
+    [three(&x[0]), three(&x[1]), three(&x[2])]
+}
+
+#[inline(always)]
+fn three(x: &[[f64; STEPS]; 3]) -> [f64; 3] {
+    [whole(&x[0]), whole(&x[1]), whole(&x[2])]
+}
+
+#[inline(always)]
+fn whole(x: &[f64; STEPS]) -> f64 {
+    let [a, b, c, d, e, f, g, h] = *x;
+    ((a + e) + (c + g)) + ((b + f) + (d + h))
+}
+
 /// Adds the steps that wait, whose middles are known.
 #[inline(always)]
 pub(crate) fn add<S: Simd>(simd: S, sums: &mut Sums<[f64; STEPS]>, steps: &Waiting) {
-    // Time from the middle of each step to the end of all.
-    let mut rest = [0.0; STEPS];
-    let mut after = 0.0;
-    for k in (0..STEPS).rev() {
-        rest[k] = after + 0.5 * steps.dt[k];
-        after += steps.dt[k];
-    }
     let load = |x: &[f64; STEPS]| f64x8::<S>::from_slice(simd, x);
-    let (rest, dt) = (load(&rest), load(&steps.dt));
+    // Time from the middle of each step to the end of all.
+    let (after, dt) = (steps.elapsed, load(&steps.dt));
+    let rest = f64x8::splat(simd, after) - load(&steps.middle);
     // Half the mean of its square over the step.
     let half_square = rest * rest * 0.5 + dt * dt * (1.0 / 24.0);
     for i in 0..3 {
@@ -193,6 +218,13 @@ impl<const N: usize> Columns<N> {
         gyro: [0.0; N],
         decay: [1.0; N],
     };
+
+    /// An interval begins, in whose first step the states make `push`.
+    #[inline]
+    pub fn begin(&mut self, push: &[[f64; N]; 3]) {
+        (self.phi, self.dv, self.dr) = ([[0.0; N]; 3], [[0.0; N]; 3], [[0.0; N]; 3]);
+        self.push = *push;
+    }
 }
 
 /// The steps that wait, whose middles are known, of the first `len` states: with C the sensor axes and `a` the velocity gained,

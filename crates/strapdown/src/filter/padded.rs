@@ -44,6 +44,39 @@ impl<S: Simd> Padded<S> {
         &self.0
     }
 
+    /// Writes its columns to three rows, from the place `first` on; the fourth lane is to be overwritten or beyond what counts.
+    #[inline(always)]
+    pub fn store(&self, rows: &mut [[f64; 12]], first: usize) {
+        self.0[0].store_slice(&mut rows[0][first..first + 4]);
+        self.0[1].store_slice(&mut rows[1][first..first + 4]);
+        self.0[2].store_slice(&mut rows[2][first..first + 4]);
+    }
+
+    /// The last column times `down`.
+    #[inline(always)]
+    pub fn held(self, down: f64) -> Self {
+        let [a, b, c] = self.0;
+        Padded([a, b, c * down])
+    }
+
+    /// This matrix times [v ×].
+    #[inline(always)]
+    pub fn times_cross(&self, [x, y, z]: [f64; 3]) -> Self {
+        let [a, b, c] = self.0;
+        Padded([b * z - c * y, c * x - a * z, a * y - b * x])
+    }
+
+    /// This matrix times one that lies in memory, where its elements are at hand one by one.
+    #[inline(always)]
+    pub fn times_stored(&self, m: &Columns3) -> Self {
+        let [a, b, c] = self.0;
+        Padded([
+            a * m[0][0] + b * m[0][1] + c * m[0][2],
+            a * m[1][0] + b * m[1][1] + c * m[1][2],
+            a * m[2][0] + b * m[2][1] + c * m[2][2],
+        ])
+    }
+
     /// Rows times `factors`.
     #[inline(always)]
     pub fn rows(self, factors: f64x4<S>) -> Self {

@@ -26,15 +26,41 @@ pub struct Propagation<const N: usize> {
     /// Rows of the navigation errors: of Phi by columns, of Q by rows.
     pub(crate) phi_n: [Column; N],
     pub(crate) q_n: [[f64; N]; 9],
-    /// Row of each source state within its block.
-    phi_s: [[f64; 2]; N],
-    /// The same of blocks of one state; one for the others.
-    decay: [f64; N],
-    pub(crate) q_s: [[f64; 2]; N],
+    pub(crate) sources: SourceStates<N>,
     /// Whether a state and the next one are a block.
     pub(crate) paired: [bool; N],
     /// How wide the machine's lanes are.
     level: Level,
+}
+
+/// What an interval does to the source states by themselves.
+#[derive(Clone, Debug)]
+pub(crate) struct SourceStates<const N: usize> {
+    /// Row of each state within its block.
+    phi: [[f64; 2]; N],
+    /// The same of blocks of one state; one for the others.
+    decay: [f64; N],
+    q: [[f64; 2]; N],
+}
+
+impl<const N: usize> SourceStates<N> {
+    /// Nothing happens.
+    pub fn identity(model: &Model<N>) -> Self {
+        let mut new = SourceStates { phi: [[1.0, 0.0]; N], decay: [1.0; N], q: [[0.0; 2]; N] };
+        for block in model.blocks().filter(|b| b.len == 2) {
+            new.phi[block.first + 1] = [0.0, 1.0];
+        }
+        new
+    }
+
+    /// Sets element `l` of the row of state `s` within its block, which is one of a pair or not.
+    pub fn set(&mut self, s: usize, l: usize, pair: bool, phi: f64, q: f64) {
+        self.phi[s][l] = phi;
+        self.q[s][l] = q;
+        if !pair {
+            self.decay[s] = phi;
+        }
+    }
 }
 
 impl<const N: usize> Propagation<N> {
@@ -47,9 +73,7 @@ impl<const N: usize> Propagation<N> {
             n,
             phi_n: [[0.0; 16]; N],
             q_n: [[0.0; N]; 9],
-            phi_s: [[1.0, 0.0]; N],
-            decay: [1.0; N],
-            q_s: [[0.0; 2]; N],
+            sources: SourceStates::identity(model),
             paired: [false; N],
             level: schuler_imu::random::best_level(),
         };
@@ -58,19 +82,8 @@ impl<const N: usize> Propagation<N> {
         }
         for block in model.blocks().filter(|b| b.len == 2) {
             p.paired[block.first] = true;
-            p.phi_s[block.first + 1] = [0.0, 1.0];
         }
         p
-    }
-
-    /// Sets element `l` of the row of state `s` within its block.
-    pub(crate) fn set_source(&mut self, s: usize, l: usize, phi: f64, q: f64) {
-        self.phi_s[s][l] = phi;
-        self.q_s[s][l] = q;
-        let second = s > self.m && self.paired[s - 1];
-        if !(self.paired[s] || second) {
-            self.decay[s] = phi;
-        }
     }
 
     /// Number of states.
@@ -82,12 +95,12 @@ impl<const N: usize> Propagation<N> {
     /// The transition matrix in full.
     pub fn phi(&self) -> SMatrix<f64, N, N> {
         let rows = core::array::from_fn(|i| core::array::from_fn(|j| self.phi_n[j][i]));
-        self.full(&rows, &self.phi_s, false)
+        self.full(&rows, &self.sources.phi, false)
     }
 
     /// The process noise covariance in full.
     pub fn q(&self) -> SMatrix<f64, N, N> {
-        self.full(&self.q_n, &self.q_s, true)
+        self.full(&self.q_n, &self.sources.q, true)
     }
 
     fn full(&self, rows: &[[f64; N]; 9], blocks: &[[f64; 2]; N], symmetric: bool) -> SMatrix<f64, N, N> {
@@ -143,7 +156,7 @@ impl<const N: usize> Propagation<N> {
     }
 
     fn phi_of(&self, s: usize) -> [[f64; 2]; 2] {
-        [self.phi_s[s], if self.paired[s] { self.phi_s[s + 1] } else { [0.0; 2] }]
+        [self.sources.phi[s], if self.paired[s] { self.sources.phi[s + 1] } else { [0.0; 2] }]
     }
 
     /// P := Phi P Phi' + Q, symmetric to the last bit.
@@ -161,8 +174,8 @@ impl<const N: usize> Propagation<N> {
         let p = &mut p.data.0;
         let kernel = Transport {
             phi: &self.phi_n,
-            decay: &self.decay,
-            phi_s: &self.phi_s,
+            decay: &self.sources.decay,
+            phi_s: &self.sources.phi,
             paired: &self.paired,
             q,
             m: self.m,
@@ -188,7 +201,7 @@ impl<const N: usize> Propagation<N> {
             let second = k > self.m && self.paired[k - 1];
             let first = if second { k - 1 } else { k };
             for l in 0..self.block(first) {
-                out[first + l] += h * self.q_s[k][l];
+                out[first + l] += h * self.sources.q[k][l];
             }
         }
         out
@@ -216,9 +229,9 @@ impl<const N: usize> Propagation<N> {
         for s in self.m..self.n {
             let second = s > self.m && self.paired[s - 1];
             let first = if second { s - 1 } else { s };
-            p[s][first] += self.q_s[s][0];
+            p[s][first] += self.sources.q[s][0];
             if second || self.paired[s] {
-                p[s][first + 1] += self.q_s[s][1];
+                p[s][first + 1] += self.sources.q[s][1];
             }
         }
     }

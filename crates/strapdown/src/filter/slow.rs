@@ -7,7 +7,7 @@ use schuler_frames::{B, Geodetic, T, Vec3};
 use super::gather::Sums;
 use super::padded::{Columns3, Padded};
 use super::{Accumulator, Model, Propagation};
-use crate::{Pva, Vertical};
+use crate::Pva;
 
 /// The slow dynamics over half an interval, by blocks; those that are not there are zero.
 pub(super) struct Slow {
@@ -33,7 +33,8 @@ impl<const N: usize> Accumulator<N> {
             c_tb: b.c_tb,
         };
         let f_b: Vec3<B> = b.c_tb.inverse() * Vec3::<T>::claim([force[0], force[1], force[2]]);
-        let mut s = model.form().system(&self.dynamics, &middle, f_b).f;
+        let mut system = model.form().system(&self.dynamics, &middle, f_b);
+        let s = &mut system.f;
         for (axis, free) in [1.0, 1.0, self.down()].into_iter().enumerate() {
             s[(axis, 3 + axis)] -= free;
         }
@@ -60,16 +61,17 @@ impl<const N: usize> Accumulator<N> {
         }
     }
 
-    /// Phi_nn = E F E by blocks, with E = exp(X), X = S T/2, and F the fast part [I, T, J; 0, I, M; 0, 0, I], J the double and
-    /// M the single integral of [f ×]; and the terms with one S made what they are,
+    /// Phi_nn by blocks: the fast part F = [I, T, J; 0, I, M; 0, 0, I], with M, J and K the single, double and triple integral
+    /// of [f ×], and around it the slow part S in orders,
     ///
     /// ```text
-    /// ∫ F(T, t) S F(t, 0) dt   instead of   F X + X F
+    /// Phi = F(T, 0) + ∫ F(T, t) S F(t, 0) dt + ∫∫ F(T, t) S F(t, u) S F(u, 0) dt du + …
     /// ```
     ///
-    /// for which the triple integral K of [f ×] is needed as well (those with S from position to attitude are left as they
-    /// are: the change of the Earth's and the transport rate over what moves in T). Of terms with two S, the third term
-    /// of the Schuler loops (velocity, level, velocity and position, velocity, position) counts in the long run.
+    /// The terms with one S are exact where two integrals of the force at most are asked for; of those with three, which the
+    /// Schuler loops make, and of all with two S, the force is taken as constant. Every product of two S is there, and with the
+    /// fast part once between or beside them: so what is left out has three slow rates, or is of a single interval and does
+    /// not add up. X = S T/2, whence the factors.
     #[inline(always)]
     pub(super) fn transition<S: Simd>(
         &self,
@@ -93,40 +95,57 @@ impl<const N: usize> Accumulator<N> {
             pv: Padded::new(simd, &slow.pv),
             pp: Padded::new(simd, &slow.pp),
         };
-        // E - 1: to second order, a baro loop's to third.
-        let square = x.times(&x);
-        let mut d = x.plus(&square, 0.5);
-        if matches!(self.dynamics.vertical, Vertical::Damped(_)) {
-            d = d.plus(&square.times(&x), 1.0 / 6.0);
-        }
+        let square = x.times(slow);
+        let (rr, vr, vv) = (x.rr.held(down), x.vr.held(down), x.vv.held(down));
+        let (pr, pv) = (x.pr.held(down), x.pv.held(down));
         // T where position moves with velocity, from the left and from the right.
         let to = free * t;
         let from = [t, t, t * down];
         let id = Padded::diagonal(simd, [1.0; 3]);
-        // F E by rows of blocks.
-        let (vv, pp) = (d.vv + id, d.pp + id);
-        let by_r = [d.rr + id + d.vr.rows(to) + j * d.pr, d.vr + m * d.pr, d.pr];
-        let by_v = [vv.rows(to) + j * d.pv, vv + m * d.pv, d.pv];
-        let by_p = [j * pp, m * pp, pp];
-        let (mut by_r, mut by_v, mut by_p) = (d.after(by_r), d.after(by_v), d.after(by_p));
-        // What the terms with one S lack.
-        let late = m + j * (-2.0 / t);
-        let twice = j + k * (-4.0 / t);
-        let thrice = k * (2.0 / t) + j * -1.0;
-        let round = x.pv * m;
+        // Integrals of force after t, twice and once, over all t.
+        let after_twice = j * 2.0 + k * (-4.0 / t);
+        let after = m * 2.0 + j * (-2.0 / t);
+        let mut moved_on = moved;
+        let mut third_on = third;
+        for i in 0..3 {
+            moved_on[i] *= 2.0 / t;
+            third_on[i] *= 2.0 / t;
+        }
+        let sunk = x.vr.rows(to);
+        let round = pv.times_cross(gained);
         let loop_ = m * round;
-        by_r[1] = by_r[1] + x.vr.rows(to) * x.vr * (-1.0 / 3.0);
-        by_v[0] = by_v[0] + x.vr.rows(to).scaled(from) * (1.0 / 3.0) + twice * x.pv;
-        by_v[1] = by_v[1] + late * x.pv;
-        by_v[2] = by_v[2] + round * x.pv * (-1.0 / 3.0);
-        by_p[0] = by_p[0]
-            + x.rr * thrice
-            + (x.vv * k).rows(to) * (2.0 / (t * t))
-            + (x.vr * m).rows(to) * (t * (1.0 / 12.0))
-            + twice * x.pp
-            + loop_ * (t * (1.0 / 12.0));
-        by_p[1] = by_p[1] + x.vr * thrice + x.vv * late * -1.0 + late * x.pp + loop_ * (1.0 / 3.0);
-        by_p[2] = by_p[2] + x.pv * late * -1.0;
+        let turned = vv.times_cross(gained);
+        let by_r = [
+            id + (x.rr + square.rr) * 2.0 + sunk + after_twice.times_stored(&slow.pr),
+            (x.vr + square.vr) * 2.0
+                + after.times_stored(&slow.pr)
+                + x.vr.scaled(from).times_stored(&slow.vr) * (2.0 / 3.0),
+            (x.pr + square.pr) * 2.0,
+        ];
+        let twice = square.rr + rr.times_stored(&slow.vv) + square.vv;
+        let by_v = [
+            Padded::diagonal(simd, from)
+                + (x.rr + twice * (2.0 / 3.0)).scaled(from)
+                + x.vv.rows(to)
+                + sunk.scaled(from) * (1.0 / 3.0)
+                + after_twice.times_stored(&slow.pv),
+            id + (x.vv + square.vv) * 2.0 + x.vr.scaled(from) + after.times_stored(&slow.pv),
+            (x.pv + square.pv) * 2.0 + x.pr.scaled(from) + round.times_stored(&slow.pv) * (2.0 / 3.0),
+        ];
+        let slow_of_force =
+            square.vv.held(down).times_cross(gained) + turned.times_stored(&slow.pp) + m * square.pp;
+        let by_p = [
+            j + (rr + vv.rows(free)).times_cross(third_on)
+                + vr.times_cross(gained).rows(to) * (t * (1.0 / 12.0))
+                + after_twice.times_stored(&slow.pp)
+                + loop_ * (t * (1.0 / 12.0)),
+            m + vr.times_cross(third_on)
+                + vv.times_cross(moved_on)
+                + after.times_stored(&slow.pp)
+                + loop_ * (1.0 / 3.0)
+                + slow_of_force * (2.0 / 3.0),
+            id + (x.pp + square.pp) * 2.0 + pr.times_cross(third_on) + pv.times_cross(moved_on),
+        ];
         if model.nav_len() == 9 {
             for (three, blocks) in out.phi_n[..9].chunks_exact_mut(3).zip([by_r, by_v, by_p]) {
                 for (j, column) in three.iter_mut().enumerate() {
@@ -159,34 +178,15 @@ struct Lower<S: Simd> {
 
 impl<S: Simd> Lower<S> {
     #[inline(always)]
-    fn times(&self, other: &Self) -> Self {
-        let (a, b) = (self, other);
+    fn times(&self, b: &Slow) -> Self {
+        let a = self;
         Lower {
-            rr: a.rr * b.rr,
-            vr: a.vr * b.rr + a.vv * b.vr,
-            vv: a.vv * b.vv,
-            pr: a.pr * b.rr + a.pv * b.vr + a.pp * b.pr,
-            pv: a.pv * b.vv + a.pp * b.pv,
-            pp: a.pp * b.pp,
+            rr: a.rr.times_stored(&b.rr),
+            vr: a.vr.times_stored(&b.rr) + a.vv.times_stored(&b.vr),
+            vv: a.vv.times_stored(&b.vv),
+            pr: a.pr.times_stored(&b.rr) + a.pv.times_stored(&b.vr) + a.pp.times_stored(&b.pr),
+            pv: a.pv.times_stored(&b.vv) + a.pp.times_stored(&b.pv),
+            pp: a.pp.times_stored(&b.pp),
         }
-    }
-
-    #[inline(always)]
-    fn plus(&self, other: &Self, factor: f64) -> Self {
-        let (a, b) = (self, other);
-        Lower {
-            rr: a.rr + b.rr * factor,
-            vr: a.vr + b.vr * factor,
-            vv: a.vv + b.vv * factor,
-            pr: a.pr + b.pr * factor,
-            pv: a.pv + b.pv * factor,
-            pp: a.pp + b.pp * factor,
-        }
-    }
-
-    /// A column of blocks with this matrix times it added.
-    #[inline(always)]
-    fn after(&self, [r, v, p]: [Padded<S>; 3]) -> [Padded<S>; 3] {
-        [r + self.rr * r, v + self.vr * r + self.vv * v, p + self.pr * r + self.pv * v + self.pp * p]
     }
 }
