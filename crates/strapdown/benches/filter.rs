@@ -5,7 +5,7 @@
 mod flight;
 
 use divan::{Bencher, black_box};
-use nalgebra::{Matrix3, SMatrix, Vector3};
+use nalgebra::{Matrix3, Matrix6, SMatrix, Vector3, Vector6};
 use schuler_frames::Gravity;
 use schuler_imu::{Instrument, Source, Spec, Truth};
 use schuler_strapdown::filter::{Accumulator, Filter, Form, Model, NavStates, Propagation, Row};
@@ -126,23 +126,35 @@ fn time_gathering(bencher: Bencher) {
     });
 }
 
-/// What a dense time update needs beside: the matrices of one IMU step from the error dynamics, to second order.
+/// What is written without any of this: F from the error dynamics, Phi = I + F dt + (F dt)²/2, Q = G Q_c G' dt, and
+/// phi * p * phi' + q, at every IMU step.
 #[divan::bench]
-fn time_dense_matrices(bencher: Bencher) {
+fn time_dense_built(bencher: Bencher) {
     let filter = filter::<15>(1);
     let model = filter.model();
     let log = flown();
     let dt = flight::DT;
-    let q = step(&filter).q();
+    // Densities of the white noise of both triads, and of what drives the source states.
+    let of_white = Matrix6::from_diagonal(&Vector6::new(1e-12, 1e-12, 1e-12, 1e-6, 1e-6, 1e-6));
+    let of_sources = step(&filter).q().fixed_view::<6, 6>(9, 9).into_owned();
+    let mut p = filter.p;
     bencher.counter(divan::counter::ItemsCount::new(STEPS * MANY)).bench_local(|| {
         for _ in 0..MANY {
             for (increments, pva) in black_box(&log) {
                 let f_b = increments.dv * (1.0 / dt);
                 let seen = Truth::increments(increments.dtheta.as_array(), increments.dv.as_array());
-                let f = model.dynamics(&DYNAMICS.system(pva, f_b), &seen) * dt;
+                let system = DYNAMICS.system(pva, f_b);
+                let f = model.dynamics(&system, &seen) * dt;
                 let phi = SMatrix::<f64, 15, 15>::identity() + f + f * f * 0.5;
-                black_box((phi, q));
+                let mut g = SMatrix::<f64, 9, 6>::zeros();
+                g.fixed_view_mut::<9, 3>(0, 0).copy_from(&system.b_gyro);
+                g.fixed_view_mut::<9, 3>(0, 3).copy_from(&system.b_accel);
+                let mut q = SMatrix::<f64, 15, 15>::zeros();
+                q.fixed_view_mut::<9, 9>(0, 0).copy_from(&(g * of_white * g.transpose() * dt));
+                q.fixed_view_mut::<6, 6>(9, 9).copy_from(&of_sources);
+                p = phi * p * phi.transpose() + q;
             }
+            p = black_box(filter.p);
         }
     });
 }

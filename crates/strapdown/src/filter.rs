@@ -68,6 +68,8 @@ mod smoother;
 mod states;
 pub mod strategy;
 mod transport;
+#[cfg(test)]
+mod widths;
 
 pub use accumulate::Accumulator;
 pub use dual::Dual;

@@ -25,12 +25,12 @@ use crate::{ErrorDynamics, Increments, Pva};
 /// damping), is slow and taken in the middle of the interval:
 ///
 /// ```text
-/// Phi = exp(S T/2) Phi_fast exp(S T/2)
+/// Phi = F(T, 0) + ∫ F(T, t) S F(t, 0) dt + the terms with two S,   F the fast part
 /// ```
 ///
-/// (the symmetric splitting of Strang, SIAM J. Numer. Anal. 5, 1968: what it leaves out is of third order in T, times two
-/// slow rates or one slow and the turn over T). Intervals of up to a second are meant; for constant dynamics over longer
-/// ones there is [`Propagation::exact`].
+/// What is left out, terms with three slow rates and the change of S within the interval, grows with T²: standard deviations
+/// after 20 steps of 10 ms differ from those of the product over the steps by some 1e-10 in cruise, by 1e-8 in a turn of 1.3 g.
+/// Intervals of up to a second are meant; for constant dynamics over longer ones there is [`Propagation::exact`].
 #[derive(Clone, Debug)]
 pub struct Accumulator<const N: usize> {
     pub(super) dynamics: ErrorDynamics,
@@ -303,7 +303,9 @@ impl<const N: usize> Accumulator<N> {
             if (self.t - self.interval).abs() > 1e-12 * self.t {
                 self.fit_interval(model);
             }
-            self.finish(model, &self.sums.total(), out);
+            let level = self.level;
+            let sums = dispatch!(level, simd => self.sums.total(simd));
+            self.finish(model, &sums, out);
         } else {
             *out = Propagation::identity(model);
         }

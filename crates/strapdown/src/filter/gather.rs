@@ -1,6 +1,6 @@
 //! The kernels of gathering: several IMU steps at a time, in the widest lanes of the machine.
 
-use fearless_simd::{Simd, SimdBase, SimdFloat, f64x8};
+use fearless_simd::{Simd, SimdBase, SimdFloat, SimdSplit, f64x8};
 
 /// IMU steps that are gathered together.
 pub(crate) const STEPS: usize = 8;
@@ -14,12 +14,14 @@ pub(crate) struct Waiting {
     /// Velocity gained, m/s, body axes.
     dv: [[f64; STEPS]; 3],
     pub dt: [f64; STEPS],
+    half_dt: [f64; STEPS],
     /// Time of the middle of each step since the first began, and of the end of the last.
     middle: [f64; STEPS],
     elapsed: f64,
-    /// Attitude in the middle of each step, by rows, and velocity gained in t: as [`middles`] finds them.
+    /// Attitude in the middle of each step, by rows, velocity gained in t, and half of it: as [`middles`] finds them.
     pub c: [[[f64; STEPS]; 3]; 3],
     pub a: [[f64; STEPS]; 3],
+    half_a: [[f64; STEPS]; 3],
 }
 
 impl Waiting {
@@ -31,10 +33,12 @@ impl Waiting {
             q: q.map(|q| [q; STEPS + 1]),
             dv: [[0.0; STEPS]; 3],
             dt: [0.0; STEPS],
+            half_dt: [0.0; STEPS],
             middle: [0.0; STEPS],
             elapsed: 0.0,
             c: [[[0.0; STEPS]; 3]; 3],
             a: [[0.0; STEPS]; 3],
+            half_a: [[0.0; STEPS]; 3],
         }
     }
 
@@ -58,6 +62,7 @@ impl Waiting {
             row[k] = dv;
         }
         self.dt[k] = dt;
+        self.half_dt[k] = 0.5 * dt;
         self.middle[k] = self.elapsed + 0.5 * dt;
         self.elapsed += dt;
         self.count = k + 1;
@@ -108,7 +113,9 @@ pub(crate) fn middles<S: Simd>(simd: S, waiting: &mut Waiting) {
         for j in 0..3 {
             c[i][j].store_slice(&mut waiting.c[i][j]);
         }
-        (c[i][0] * dv[0] + c[i][1] * dv[1] + c[i][2] * dv[2]).store_slice(&mut waiting.a[i]);
+        let a = c[i][0] * dv[0] + c[i][1] * dv[1] + c[i][2] * dv[2];
+        a.store_slice(&mut waiting.a[i]);
+        (a * 0.5).store_slice(&mut waiting.half_a[i]);
     }
 }
 
@@ -143,32 +150,28 @@ impl<X: Copy> Sums<X> {
 
 impl Sums<[f64; STEPS]> {
     /// Over all lanes, in the same order whatever the machine.
-    #[inline]
-    pub fn total(&self) -> Sums<f64> {
-        Sums {
-            gained: three(&self.gained),
-            moved: three(&self.moved),
-            third: three(&self.third),
-            turned: nine(&self.turned),
-            turning: nine(&self.turning),
+    #[inline(always)]
+    pub fn total<S: Simd>(&self, simd: S) -> Sums<f64> {
+        let mut total = Sums::of(0.0);
+        for i in 0..3 {
+            total.gained[i] = whole(simd, &self.gained[i]);
+            total.moved[i] = whole(simd, &self.moved[i]);
+            total.third[i] = whole(simd, &self.third[i]);
+            for j in 0..3 {
+                total.turned[i][j] = whole(simd, &self.turned[i][j]);
+                total.turning[i][j] = whole(simd, &self.turning[i][j]);
+            }
         }
+        total
     }
 }
 
 #[inline(always)]
-fn nine(x: &[[[f64; STEPS]; 3]; 3]) -> [[f64; 3]; 3] {
-    [three(&x[0]), three(&x[1]), three(&x[2])]
-}
-
-#[inline(always)]
-fn three(x: &[[f64; STEPS]; 3]) -> [f64; 3] {
-    [whole(&x[0]), whole(&x[1]), whole(&x[2])]
-}
-
-#[inline(always)]
-fn whole(x: &[f64; STEPS]) -> f64 {
-    let [a, b, c, d, e, f, g, h] = *x;
-    ((a + e) + (c + g)) + ((b + f) + (d + h))
+fn whole<S: Simd>(simd: S, x: &[f64; STEPS]) -> f64 {
+    let (low, high) = f64x8::from_slice(simd, x).split();
+    let (low, high) = (low + high).split();
+    let two = low + high;
+    two[0] + two[1]
 }
 
 /// Adds the steps that wait, whose middles are known.
@@ -259,8 +262,8 @@ fn piece<S: Simd, const N: usize>(simd: S, columns: &mut Columns<N>, steps: &Wai
     // Halves of what a step makes, once to its middle and once from there.
     for k in 0..steps.count.min(STEPS) {
         let c = |i: usize, j: usize| steps.c[i][j][k];
-        let (dt, a) = (steps.dt[k], [0.5 * steps.a[0][k], 0.5 * steps.a[1][k], 0.5 * steps.a[2][k]]);
-        let half = faded * (0.5 * dt);
+        let (dt, a) = (steps.dt[k], [steps.half_a[0][k], steps.half_a[1][k], steps.half_a[2][k]]);
+        let half = faded * steps.half_dt[k];
         let of_gyro = half * gyro;
         let of_accel = half - of_gyro;
         faded *= decay;

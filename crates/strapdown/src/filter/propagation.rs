@@ -30,7 +30,7 @@ pub struct Propagation<const N: usize> {
     /// Whether a state and the next one are a block.
     pub(crate) paired: [bool; N],
     /// How wide the machine's lanes are.
-    level: Level,
+    pub(crate) level: Level,
 }
 
 /// What an interval does to the source states by themselves.
