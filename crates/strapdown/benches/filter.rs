@@ -5,7 +5,7 @@
 mod flight;
 
 use divan::{Bencher, black_box};
-use nalgebra::{Matrix3, SMatrix, Vector3};
+use nalgebra::{Matrix3, Matrix6, SMatrix, Vector3, Vector6};
 use schuler_frames::Gravity;
 use schuler_imu::{Instrument, Source, Spec, Truth};
 use schuler_strapdown::filter::{Accumulator, Filter, Form, Model, NavStates, Propagation, Row};
@@ -57,9 +57,6 @@ fn flown() -> Vec<(Increments, Pva)> {
         .collect()
 }
 
-/// Variance of a scalar measurement.
-const NOISE: [[f64; 3]; 3] = [[1e-2, 0.0, 0.0], [0.0; 3], [0.0; 3]];
-
 fn step<const N: usize>(filter: &Filter<N>) -> Propagation<N> {
     let pva = flight::start();
     let f_b = schuler_frames::Vec3::new(0.1, 0.5, -9.8);
@@ -89,9 +86,7 @@ fn time_sparse(bencher: Bencher) {
     let mut p = filter.p;
     bencher.counter(divan::counter::ItemsCount::new(MANY)).bench_local(|| {
         for _ in 0..MANY {
-            let step = black_box(&step);
-            step.transport(&mut p);
-            step.diffuse(&mut p);
+            black_box(&step).apply(&mut p);
         }
     });
 }
@@ -103,12 +98,13 @@ fn time_accumulated(bencher: Bencher) {
     let model = filter.model().clone();
     let log = flown();
     let mut accumulator = Accumulator::new(&model, DYNAMICS, &flight::start());
+    let mut step = Propagation::identity(&model);
     bencher.counter(divan::counter::ItemsCount::new(STEPS * MANY)).bench_local(|| {
         for _ in 0..MANY {
             for (increments, pva) in black_box(&log) {
                 accumulator.step(&model, pva, increments, flight::DT);
             }
-            let step = accumulator.close(&model);
+            accumulator.close_into(&model, &mut step);
             filter.propagate(&step);
         }
     });
@@ -130,23 +126,35 @@ fn time_gathering(bencher: Bencher) {
     });
 }
 
-/// What a dense time update needs beside: the matrices of one IMU step from the error dynamics, to second order.
+/// What is written without any of this: F from the error dynamics, Phi = I + F dt + (F dt)²/2, Q = G Q_c G' dt, and
+/// phi * p * phi' + q, at every IMU step.
 #[divan::bench]
-fn time_dense_matrices(bencher: Bencher) {
+fn time_dense_built(bencher: Bencher) {
     let filter = filter::<15>(1);
     let model = filter.model();
     let log = flown();
     let dt = flight::DT;
-    let q = step(&filter).q();
+    // Densities of the white noise of both triads, and of what drives the source states.
+    let of_white = Matrix6::from_diagonal(&Vector6::new(1e-12, 1e-12, 1e-12, 1e-6, 1e-6, 1e-6));
+    let of_sources = step(&filter).q().fixed_view::<6, 6>(9, 9).into_owned();
+    let mut p = filter.p;
     bencher.counter(divan::counter::ItemsCount::new(STEPS * MANY)).bench_local(|| {
         for _ in 0..MANY {
             for (increments, pva) in black_box(&log) {
                 let f_b = increments.dv * (1.0 / dt);
                 let seen = Truth::increments(increments.dtheta.as_array(), increments.dv.as_array());
-                let f = model.dynamics(&DYNAMICS.system(pva, f_b), &seen) * dt;
+                let system = DYNAMICS.system(pva, f_b);
+                let f = model.dynamics(&system, &seen) * dt;
                 let phi = SMatrix::<f64, 15, 15>::identity() + f + f * f * 0.5;
-                black_box((phi, q));
+                let mut g = SMatrix::<f64, 9, 6>::zeros();
+                g.fixed_view_mut::<9, 3>(0, 0).copy_from(&system.b_gyro);
+                g.fixed_view_mut::<9, 3>(0, 3).copy_from(&system.b_accel);
+                let mut q = SMatrix::<f64, 15, 15>::zeros();
+                q.fixed_view_mut::<9, 9>(0, 0).copy_from(&(g * of_white * g.transpose() * dt));
+                q.fixed_view_mut::<6, 6>(9, 9).copy_from(&of_sources);
+                p = phi * p * phi.transpose() + q;
             }
+            p = black_box(filter.p);
         }
     });
 }
@@ -159,9 +167,7 @@ fn time_by_states(bencher: Bencher, biases: usize) {
     let mut p = filter.p;
     bencher.counter(divan::counter::ItemsCount::new(MANY)).bench_local(|| {
         for _ in 0..MANY {
-            let step = black_box(&step);
-            step.transport(&mut p);
-            step.diffuse(&mut p);
+            black_box(&step).apply(&mut p);
         }
     });
 }
@@ -192,7 +198,7 @@ fn measurement_scalar(bencher: Bencher) {
     let row = Row::from_pairs([(3, 1.0)]);
     bencher.counter(divan::counter::ItemsCount::new(MANY)).bench_local(|| {
         for _ in 0..MANY {
-            black_box(filter.update_rows(black_box(&[row]), [0.01, 0.0, 0.0], &NOISE)).ok();
+            black_box(filter.update_scalar(black_box(&row), 0.01, 1e-2)).ok();
         }
     });
 }
@@ -204,7 +210,7 @@ fn measurement_by_states(bencher: Bencher, biases: usize) {
     let row = Row::from_pairs([(3, 1.0)]);
     bencher.counter(divan::counter::ItemsCount::new(MANY)).bench_local(|| {
         for _ in 0..MANY {
-            black_box(filter.update_rows(black_box(&[row]), [0.01, 0.0, 0.0], &NOISE)).ok();
+            black_box(filter.update_scalar(black_box(&row), 0.01, 1e-2)).ok();
         }
     });
 }

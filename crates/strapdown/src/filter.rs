@@ -45,24 +45,31 @@
 mod accumulate;
 mod block;
 pub mod chi_square;
+mod close;
 mod dual;
 mod error;
 mod estimator;
 mod exact;
 mod gate;
+mod gather;
 pub mod measurement;
 mod model;
 mod observability;
 mod observation;
+mod padded;
 mod propagation;
 mod reset;
 mod row;
 mod scalar_update;
+mod slow;
 mod small;
 mod small_process;
 mod smoother;
 mod states;
 pub mod strategy;
+mod transport;
+#[cfg(test)]
+mod widths;
 
 pub use accumulate::Accumulator;
 pub use dual::Dual;

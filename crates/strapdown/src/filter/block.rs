@@ -71,6 +71,11 @@ impl Block {
         self.origin.source.map(|component| component.instrument())
     }
 
+    /// Whether noise drives its states.
+    pub fn is_driven(&self) -> bool {
+        self.len > 0 && self.q != [[0.0; 2]; 2]
+    }
+
     /// Error of the instrument along body axes per unit of the coefficient.
     pub fn column(&self, inputs: &Inputs) -> [f64; 3] {
         match (self.column, &self.origin.source) {

@@ -78,8 +78,7 @@ impl<const T: usize, const N: usize> Dual<T, N> {
 
     /// Time update of both, each by its own step over the same time.
     pub fn propagate(&mut self, truth: &Propagation<T>, filter: &Propagation<N>) {
-        truth.transport(&mut self.xx);
-        truth.diffuse(&mut self.xx);
+        truth.apply(&mut self.xx);
         for e in 0..self.filter.model.len() {
             let mut column = self.ex.column(e).into_owned();
             truth.carry(&mut column);

@@ -113,8 +113,7 @@ impl<const N: usize> Filter<N> {
     /// Time update: x := Phi x, P := Phi P Phi' + Q.
     pub fn propagate(&mut self, step: &Propagation<N>) {
         self.carry(step);
-        step.transport(&mut self.p);
-        step.diffuse(&mut self.p);
+        step.apply(&mut self.p);
     }
 
     /// The part of the time update that moves the estimates: x := Phi x.
@@ -204,7 +203,7 @@ impl<const N: usize> Filter<N> {
             if noise.is_diagonal(len) || refused > 0 {
                 // A scalar gate refuses rows only where they are independent.
                 for i in (0..len).filter(|&i| accepted[i]) {
-                    self.scalar(&rows[i], z[i], r[i][i])?;
+                    self.update_scalar(&rows[i], z[i], r[i][i])?;
                 }
             } else {
                 // R = L D L': the rows of L⁻¹ z are independent.
@@ -218,23 +217,21 @@ impl<const N: usize> Filter<N> {
                         free[i].add_row(-l, &earlier);
                         free_z[i] -= l * free_z[j];
                     }
-                    self.scalar(&free[i], free_z[i], noise.d[i])?;
+                    self.update_scalar(&free[i], free_z[i], noise.d[i])?;
                 }
             }
         }
         Ok(Outcome { len, innovation, s, nis, accepted })
     }
 
-    /// One scalar measurement, without gate.
-    fn scalar(&mut self, row: &Row<N>, z: f64, r: f64) -> Result<(), FilterError> {
+    /// One scalar measurement `z = row x + v`, v of variance `r`, in Joseph form, without gate: its innovation and the
+    /// predicted variance of that.
+    ///
+    /// # Errors
+    /// [`FilterError::Covariance`] where that variance is not positive; the filter is then as it was.
+    pub fn update_scalar(&mut self, row: &Row<N>, z: f64, r: f64) -> Result<(f64, f64), FilterError> {
         let n = self.model.len();
-        match update(&mut self.x, &mut self.p, row, z, r, n) {
-            Some(_) => Ok(()),
-            None => {
-                let (_, variance) = seen(&self.p, row, n);
-                Err(FilterError::Covariance { variance: variance + r })
-            }
-        }
+        update(&mut self.x, &mut self.p, row, z, r, n)
     }
 
     /// Update of the covariance alone by a scalar measurement with any gain: Joseph form.

@@ -44,7 +44,7 @@ impl<const N: usize> Propagation<N> {
         let (phi, q) = discretize(&nav, &density, size, dt);
         for (i, &full_i) in full.iter().enumerate() {
             for (j, &full_j) in full.iter().enumerate() {
-                out.phi_n[i][j] = phi[(full_i, full_j)];
+                out.phi_n[j][i] = phi[(full_i, full_j)];
                 out.q_n[i][j] = q[(full_i, full_j)];
             }
         }
@@ -55,12 +55,11 @@ impl<const N: usize> Propagation<N> {
             let (phi, q) = discretize(&a, &density, size + rate, dt);
             for (k, s) in block.states().enumerate() {
                 for (i, &full_i) in full.iter().enumerate() {
-                    out.phi_n[i][s] = phi[(full_i, 9 + k)];
+                    out.phi_n[s][i] = phi[(full_i, 9 + k)];
                     out.q_n[i][s] = q[(full_i, 9 + k)];
                 }
                 for l in 0..block.len {
-                    out.phi_s[s][l] = phi[(9 + k, 9 + l)];
-                    out.q_s[s][l] = q[(9 + k, 9 + l)];
+                    out.sources.set(s, l, block.len == 2, phi[(9 + k, 9 + l)], q[(9 + k, 9 + l)]);
                 }
             }
             for (i, &full_i) in full.iter().enumerate() {

@@ -297,6 +297,13 @@ impl<const N: usize> Model<N> {
         white
     }
 
+    /// The density of white noise of a sensor where it is the same along all axes, whatever the input.
+    pub(crate) fn isotropic(&self, instrument: Instrument) -> Option<f64> {
+        let white = self.white[instrument as usize];
+        let depends = self.blocks().any(|b| b.white > 0.0 && b.instrument() == Some(instrument));
+        (!depends && white == Matrix3::from_diagonal_element(white[(0, 0)])).then_some(white[(0, 0)])
+    }
+
     /// Spectral density of the white noise of the nine navigation errors, under `inputs`.
     pub(crate) fn nav_density(&self, system: &System, inputs: &Inputs) -> SMatrix<f64, 9, 9> {
         let mut q = system.b_gyro * self.white(Instrument::Gyro, inputs) * system.b_gyro.transpose()

@@ -1,7 +1,9 @@
 //! Transition and process noise over an interval, and what they do to a covariance.
 
+use fearless_simd::{Level, dispatch};
 use nalgebra::{SMatrix, SVector};
 
+use super::transport::{Column, Transport};
 use super::{Model, Row};
 
 /// The transition matrix and the process noise of all states over an interval, stored as sparse as they are:
@@ -13,7 +15,7 @@ use super::{Model, Row};
 ///
 /// with n the at most nine navigation errors and s the source states, whose Phi_ss and Q_ss have blocks of one or two
 /// states on the diagonal. Multiplying with it costs nine times the square of the number of states, not twice the cube.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Propagation<const N: usize> {
     /// Length of the interval, s.
     pub dt: f64,
@@ -21,14 +23,44 @@ pub struct Propagation<const N: usize> {
     pub(crate) m: usize,
     /// Number of states.
     pub(crate) n: usize,
-    /// Rows of the navigation errors.
-    pub(crate) phi_n: [[f64; N]; 9],
+    /// Rows of the navigation errors: of Phi by columns, of Q by rows.
+    pub(crate) phi_n: [Column; N],
     pub(crate) q_n: [[f64; N]; 9],
-    /// Row of each source state within its block.
-    pub(crate) phi_s: [[f64; 2]; N],
-    pub(crate) q_s: [[f64; 2]; N],
+    pub(crate) sources: SourceStates<N>,
     /// Whether a state and the next one are a block.
     pub(crate) paired: [bool; N],
+    /// How wide the machine's lanes are.
+    pub(crate) level: Level,
+}
+
+/// What an interval does to the source states by themselves.
+#[derive(Clone, Debug)]
+pub(crate) struct SourceStates<const N: usize> {
+    /// Row of each state within its block.
+    phi: [[f64; 2]; N],
+    /// The same of blocks of one state; one for the others.
+    decay: [f64; N],
+    q: [[f64; 2]; N],
+}
+
+impl<const N: usize> SourceStates<N> {
+    /// Nothing happens.
+    pub fn identity(model: &Model<N>) -> Self {
+        let mut new = SourceStates { phi: [[1.0, 0.0]; N], decay: [1.0; N], q: [[0.0; 2]; N] };
+        for block in model.blocks().filter(|b| b.len == 2) {
+            new.phi[block.first + 1] = [0.0, 1.0];
+        }
+        new
+    }
+
+    /// Sets element `l` of the row of state `s` within its block, which is one of a pair or not.
+    pub fn set(&mut self, s: usize, l: usize, pair: bool, phi: f64, q: f64) {
+        self.phi[s][l] = phi;
+        self.q[s][l] = q;
+        if !pair {
+            self.decay[s] = phi;
+        }
+    }
 }
 
 impl<const N: usize> Propagation<N> {
@@ -39,18 +71,17 @@ impl<const N: usize> Propagation<N> {
             dt: 0.0,
             m,
             n,
-            phi_n: [[0.0; N]; 9],
+            phi_n: [[0.0; 16]; N],
             q_n: [[0.0; N]; 9],
-            phi_s: [[1.0, 0.0]; N],
-            q_s: [[0.0; 2]; N],
+            sources: SourceStates::identity(model),
             paired: [false; N],
+            level: schuler_imu::random::best_level(),
         };
         for k in 0..m {
             p.phi_n[k][k] = 1.0;
         }
         for block in model.blocks().filter(|b| b.len == 2) {
             p.paired[block.first] = true;
-            p.phi_s[block.first + 1] = [0.0, 1.0];
         }
         p
     }
@@ -63,12 +94,13 @@ impl<const N: usize> Propagation<N> {
 
     /// The transition matrix in full.
     pub fn phi(&self) -> SMatrix<f64, N, N> {
-        self.full(&self.phi_n, &self.phi_s, false)
+        let rows = core::array::from_fn(|i| core::array::from_fn(|j| self.phi_n[j][i]));
+        self.full(&rows, &self.sources.phi, false)
     }
 
     /// The process noise covariance in full.
     pub fn q(&self) -> SMatrix<f64, N, N> {
-        self.full(&self.q_n, &self.q_s, true)
+        self.full(&self.q_n, &self.sources.q, true)
     }
 
     fn full(&self, rows: &[[f64; N]; 9], blocks: &[[f64; 2]; N], symmetric: bool) -> SMatrix<f64, N, N> {
@@ -101,9 +133,15 @@ impl<const N: usize> Propagation<N> {
 
     /// x := Phi x.
     pub fn carry(&self, x: &mut SVector<f64, N>) {
+        if x.iter().all(|x| *x == 0.0) {
+            return;
+        }
         let old = *x;
-        for i in 0..self.m {
-            x[i] = dot(&self.phi_n[i][..self.n], &old.as_slice()[..self.n]);
+        x.as_mut_slice()[..self.m].fill(0.0);
+        for (column, old) in self.phi_n[..self.n].iter().zip(old.iter()) {
+            for (x, phi) in x.as_mut_slice()[..self.m].iter_mut().zip(column) {
+                *x += phi * old;
+            }
         }
         let mut s = self.m;
         while s < self.n {
@@ -118,69 +156,33 @@ impl<const N: usize> Propagation<N> {
     }
 
     fn phi_of(&self, s: usize) -> [[f64; 2]; 2] {
-        [self.phi_s[s], if self.paired[s] { self.phi_s[s + 1] } else { [0.0; 2] }]
+        [self.sources.phi[s], if self.paired[s] { self.sources.phi[s + 1] } else { [0.0; 2] }]
+    }
+
+    /// P := Phi P Phi' + Q, symmetric to the last bit.
+    pub fn apply(&self, p: &mut SMatrix<f64, N, N>) {
+        self.carry_covariance(p, Some(&self.q_n));
+        self.diffuse_sources(p);
     }
 
     /// P := Phi P Phi', symmetric to the last bit.
     pub fn transport(&self, p: &mut SMatrix<f64, N, N>) {
-        let (m, n) = (self.m, self.n);
+        self.carry_covariance(p, None);
+    }
+
+    fn carry_covariance(&self, p: &mut SMatrix<f64, N, N>, q: Option<&[[f64; N]; 9]>) {
         let p = &mut p.data.0;
-        // W = Phi_n P: rows of the navigation errors.
-        let mut w = [[0.0; N]; 9];
-        for (row, w) in self.phi_n[..m].iter().zip(&mut w) {
-            let w = &mut w[..n];
-            for (k, &phi) in row[..n].iter().enumerate() {
-                for (w, p) in w.iter_mut().zip(&p[k][..n]) {
-                    *w += phi * p;
-                }
-            }
-        }
-        // Navigation errors among themselves.
-        for i in 0..m {
-            for j in 0..=i {
-                let value = dot(&w[i][..n], &self.phi_n[j][..n]);
-                p[i][j] = value;
-                p[j][i] = value;
-            }
-        }
-        // Source states among themselves, and with the navigation errors.
-        let mut s = m;
-        while s < n {
-            let len = self.block(s);
-            let [[a, b], [c, d]] = self.phi_of(s);
-            if len == 1 {
-                if a != 1.0 {
-                    for j in m..n {
-                        p[s][j] *= a;
-                    }
-                    for j in m..n {
-                        p[j][s] *= a;
-                    }
-                }
-                for i in 0..m {
-                    let value = a * w[i][s];
-                    p[i][s] = value;
-                    p[s][i] = value;
-                }
-            } else {
-                let t = s + 1;
-                for j in m..n {
-                    let (u, v) = (p[s][j], p[t][j]);
-                    (p[s][j], p[t][j]) = (a * u + b * v, c * u + d * v);
-                }
-                for j in m..n {
-                    let (u, v) = (p[j][s], p[j][t]);
-                    (p[j][s], p[j][t]) = (a * u + b * v, c * u + d * v);
-                }
-                p[s][t] = p[t][s];
-                for i in 0..m {
-                    let (u, v) = (w[i][s], w[i][t]);
-                    (p[i][s], p[i][t]) = (a * u + b * v, c * u + d * v);
-                    (p[s][i], p[t][i]) = (p[i][s], p[i][t]);
-                }
-            }
-            s += len;
-        }
+        let kernel = Transport {
+            phi: &self.phi_n,
+            decay: &self.sources.decay,
+            phi_s: &self.sources.phi,
+            paired: &self.paired,
+            q,
+            m: self.m,
+            n: self.n,
+        };
+        let level = self.level;
+        dispatch!(level, simd => kernel.run(simd, p));
     }
 
     /// Q h'.
@@ -199,33 +201,38 @@ impl<const N: usize> Propagation<N> {
             let second = k > self.m && self.paired[k - 1];
             let first = if second { k - 1 } else { k };
             for l in 0..self.block(first) {
-                out[first + l] += h * self.q_s[k][l];
+                out[first + l] += h * self.sources.q[k][l];
             }
         }
         out
     }
 
     /// P := P + Q.
-    pub fn diffuse(&self, p: &mut SMatrix<f64, N, N>) {
+    pub fn diffuse(&self, p_whole: &mut SMatrix<f64, N, N>) {
         let (m, n) = (self.m, self.n);
-        let p = &mut p.data.0;
-        for i in 0..m {
-            for (p, q) in p[i][..n].iter_mut().zip(&self.q_n[i][..n]) {
+        let p = &mut p_whole.data.0;
+        for (p, q) in p[..m].iter_mut().zip(&self.q_n) {
+            for (p, q) in p[..n].iter_mut().zip(&q[..n]) {
                 *p += q;
             }
-            for j in m..n {
-                p[j][i] = p[i][j];
+        }
+        for s in m..n {
+            for i in 0..m {
+                p[s][i] = p[i][s];
             }
         }
-        let mut s = m;
-        while s < n {
-            let len = self.block(s);
-            for i in s..s + len {
-                for j in 0..len {
-                    p[i][s + j] += self.q_s[i][j];
-                }
+        self.diffuse_sources(p_whole);
+    }
+
+    fn diffuse_sources(&self, p: &mut SMatrix<f64, N, N>) {
+        let p = &mut p.data.0;
+        for s in self.m..self.n {
+            let second = s > self.m && self.paired[s - 1];
+            let first = if second { s - 1 } else { s };
+            p[s][first] += self.sources.q[s][0];
+            if second || self.paired[s] {
+                p[s][first + 1] += self.sources.q[s][1];
             }
-            s += len;
         }
     }
 }

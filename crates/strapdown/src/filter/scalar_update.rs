@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::Row;
+use super::{FilterError, Row};
 
 /// P h and h P h' of the first `n` states.
 pub(crate) fn seen<const N: usize>(p: &SMatrix<f64, N, N>, row: &Row<N>, n: usize) -> ([f64; N], f64) {
@@ -47,7 +47,7 @@ pub(crate) fn joseph<const N: usize>(
 }
 
 /// One scalar measurement `z = h x + v`, v of variance `r`: x and P after it, and the innovation before it with its
-/// variance. `None`, and nothing changed, where the variance is not positive.
+/// variance. An error, and nothing changed, where the variance is not positive.
 pub(crate) fn update<const N: usize>(
     x: &mut SVector<f64, N>,
     p: &mut SMatrix<f64, N, N>,
@@ -55,11 +55,11 @@ pub(crate) fn update<const N: usize>(
     z: f64,
     r: f64,
     n: usize,
-) -> Option<(f64, f64)> {
+) -> Result<(f64, f64), FilterError> {
     let (b, variance) = seen(p, row, n);
     let s = variance + r;
     if !(s > 0.0 && s.is_finite()) {
-        return None;
+        return Err(FilterError::Covariance { variance: s });
     }
     let innovation = z - row.dot(x.as_slice());
     let per_s = 1.0 / s;
@@ -68,5 +68,5 @@ pub(crate) fn update<const N: usize>(
         *x += k * innovation;
     }
     joseph(p, &gain, &b, variance, r, n);
-    Some((innovation, s))
+    Ok((innovation, s))
 }

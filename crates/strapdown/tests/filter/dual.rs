@@ -56,10 +56,7 @@ fn mismatched_models_give_the_spread_of_simulated_runs() {
     ])
     .unwrap();
     let mut truth_model = Model::<20>::new(Form::Phi, NavStates::LEVEL, &truth_spec).unwrap();
-    let colour =
-        Source::named(Accel, "bias", "gauss_markov", &[("sigma", 0.02.into()), ("tau", 10.0.into())])
-            .unwrap();
-    let colour = colour.components().next().unwrap().evolution().linear_model();
+    let colour = gauss_markov(0.02, 10.0);
     let extra =
         ["velocity noise n", "velocity noise e"].map(|name| truth_model.add_extra(name, &colour).unwrap());
     let wide = SIGMAS.map(|s| 2.0 * s);

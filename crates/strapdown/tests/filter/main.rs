@@ -2,8 +2,10 @@
 
 mod accumulated;
 mod common;
+mod consistency;
 mod covariance_table;
 mod dual;
+mod intervals;
 mod laws;
 mod observability;
 mod rows;
