@@ -68,7 +68,7 @@ impl Document {
             key.as_ref().map(|k| k.node)
         }
         use StudyKind::{Align, Allan, Budget, Drift, Imu, Navigate, Simulate};
-        let keys: [(Option<NodeId>, &[StudyKind]); 12] = [
+        let keys: [(Option<NodeId>, &[StudyKind]); 13] = [
             (node(&w.motion), &[Imu, Drift, Simulate, Align, Budget]),
             (node(&w.imu), &[Imu, Drift, Simulate, Align, Budget]),
             (node(&w.gravity), &[Simulate]),
@@ -81,6 +81,7 @@ impl Document {
             (node(&w.alignment), &[Align]),
             (node(&w.budget), &[Budget]),
             (w.output.as_ref().and_then(|output| node(&output.value.allan)), &[Imu]),
+            (w.output.as_ref().and_then(|output| node(&output.value.logs)), &[Simulate]),
         ];
         for (node, studies) in keys {
             if let Some(node) = node.filter(|_| !studies.contains(&w.study.value)) {
@@ -250,7 +251,7 @@ impl Document {
     fn output(&self, output: Option<&At<written::Output>>, rate: f64) -> Result<Output, Diagnostic> {
         let Some(w) = output.map(|o| &o.value) else {
             let formats = Formats { csv: true, png: true, svg: false };
-            return Ok(Output { every: None, formats, imu: Content::Rates });
+            return Ok(Output { every: None, formats, imu: Content::Rates, kf_gins: false });
         };
         let every = w.every.as_ref().map(|every| self.every(every, rate)).transpose()?;
         let formats = w.formats.as_ref().map_or(Formats { csv: true, png: true, svg: false }, |formats| {
@@ -261,7 +262,12 @@ impl Document {
                 svg: has(|f| matches!(f, written::Format::Svg)),
             }
         });
-        Ok(Output { every, formats, imu: w.imu.map_or(Content::Rates, content) })
+        Ok(Output {
+            every,
+            formats,
+            imu: w.imu.map_or(Content::Rates, content),
+            kf_gins: w.logs.as_ref().is_some_and(|logs| !logs.value.is_empty()),
+        })
     }
 
     /// Rows are states after whole updates.
