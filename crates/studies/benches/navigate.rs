@@ -25,7 +25,7 @@ fn aided(sources: &str) -> Aided {
 schuler: 1
 study: navigate
 title: Bench
-start: {{ position: {{ lat: 45 deg, lon: 7 deg, h: 300 m }} }}
+start: {{ position: {{ lat: 45 deg, lon: 7 deg, h: 300 m }}, attitude: {{ roll: 0 deg, pitch: 0 deg, yaw: 0 deg }} }}
 log:
   file: none.csv
   rate: 200 Hz

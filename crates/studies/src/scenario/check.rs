@@ -144,6 +144,14 @@ impl Document {
         let start = self.required_start(w, "navigate")?;
         let mechanization = self.mechanization(w, "navigate")?;
         if let Some(filter) = &w.filter {
+            if w.align.is_none() && w.start.as_ref().is_some_and(|start| start.value.attitude.is_none()) {
+                return Err(self
+                    .diagnostic(Spot::Node(filter.node), "the attitude at the start is not known")
+                    .expected(
+                        "`attitude` below `start`, or `align`: no navigator and no lever arm goes without",
+                    )
+                    .example("align: { method: triad, window: [0 s, 300 s] }"));
+            }
             let align = w.align.as_ref().map(|align| self.align_window(align)).transpose()?;
             let common = Common { log, start, align, mechanization, duration };
             return Ok(Study::Aided(Box::new(self.aided(w, filter, common)?)));

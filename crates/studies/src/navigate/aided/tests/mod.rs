@@ -306,6 +306,26 @@ fn what_does_not_fit_is_refused() {
             "mechanization={ frame: t, vertical: { damped: { order: 3, tau: 100 s } }, gravity: normal }",
             "damped",
         ),
+        (
+            "start={ position: { lat: 48 deg, lon: 11 deg, h: 800 m } }",
+            "filter: the attitude at the start is not known",
+        ),
+        (
+            "filter.measurements.zero_rate={ sigma: 1 deg/s, detect: { window: 5 ms, gyro: 1 deg/s, accel: 1 m/s^2 } }",
+            "no window that shows a standstill",
+        ),
+        (
+            "filter.measurements.non_holonomic={ sigma: 1 m/s, detect: { window: 1 s, gyro: 1 deg/s, accel: 1 m/s^2 } }",
+            "`non_holonomic` holds at a standstill and on the way",
+        ),
+        (
+            "filter.measurements={ velocity: { file: velocity.csv, format: kf_gins } }",
+            "this format has no velocity",
+        ),
+        (
+            "filter.measurements.position={ file: position.csv, format: kf_gins, angle: 1 deg }",
+            "the format says what `angle` is",
+        ),
     ] {
         let text = message(&[override_]);
         assert!(text.contains(words), "{override_}: {text}");
