@@ -65,6 +65,12 @@ impl Rows {
             _ => Box::new(bytes),
         };
         Ok(match plain.fill_buf().map_err(failed)? {
+            [b'P', b'A', b'R', b'1', ..] => {
+                return Err(Diagnostic::new(file, "a Parquet file, which is not read as a log")
+                    .expected("text, or a NumPy array (npy); either also gzipped")
+                    .help("with pandas: `read_parquet(FILE).to_csv(LOG, index=False)`")
+                    .into());
+            }
             [npy::FIRST, ..] => Rows::Npy(NpyRows::new(file, plain, wanted)?),
             _ => Rows::Text(TextRows::new(file, plain, wanted)?),
         })
