@@ -17,7 +17,8 @@ pub struct Args {
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Run scenarios; write tables, figures and a summary of each into a folder.
+    /// Run scenarios; write tables, figures and a summary of each into a folder. `study:` in a scenario says what is done:
+    /// `simulate` makes logs of a motion, `navigate` follows logs.
     Run(RunArgs),
     /// Allan deviations of a recorded log at rest, and the error model that they show.
     Allan(AllanArgs),

@@ -5,7 +5,7 @@
 use divan::{Bencher, black_box, counter::ItemsCount};
 use schuler_frames::{Geodetic, Gravity, Rot, Vec3};
 use schuler_strapdown::filter::{Position, measurement::ALL};
-use schuler_strapdown::{Increments, Pva, Vertical};
+use schuler_strapdown::{Increments, LocalLevel, Pva, Vertical};
 use schuler_studies::Scenario;
 use schuler_studies::navigate::aided::ClosedLoop;
 use schuler_studies::scenario::{Aided, Study};
@@ -25,7 +25,7 @@ fn aided(sources: &str) -> Aided {
 schuler: 1
 study: navigate
 title: Bench
-start: {{ position: {{ lat: 45 deg, lon: 7 deg, h: 300 m }} }}
+start: {{ position: {{ lat: 45 deg, lon: 7 deg, h: 300 m }}, attitude: {{ roll: 0 deg, pitch: 0 deg, yaw: 0 deg }} }}
 log:
   file: none.csv
   rate: 200 Hz
@@ -49,8 +49,8 @@ filter:
     }
 }
 
-fn navigate<const N: usize>(bencher: Bencher, sources: &str) {
-    let aided = aided(sources);
+/// At rest: where, what a sample holds, and a fix.
+fn motion() -> (Pva, Increments, Position) {
     let place = Geodetic::new(45f64.to_radians(), 7f64.to_radians(), 300.0);
     let start = Pva { position: place, v_t: Vec3::ZERO, c_tb: Rot::IDENTITY };
     let f = -Gravity::Normal.gravity_t(place);
@@ -59,7 +59,12 @@ fn navigate<const N: usize>(bencher: Bencher, sources: &str) {
         dv: Vec3::claim(f.as_array().map(|x| x * DT)),
     };
     let fix = Position { position: place, sigma: [1.0; 3], lever: Vec3::new(1.0, 0.5, -1.0), axes: ALL };
-    let closed = ClosedLoop::<N>::new(&aided, &start, Vertical::Free).expect("a filter");
+    (start, increments, fix)
+}
+
+fn navigate<const N: usize>(bencher: Bencher, sources: &str) {
+    let (start, increments, fix) = motion();
+    let closed = ClosedLoop::<N>::new(&aided(sources), &start, Vertical::Free).expect("a filter");
     bencher.counter(ItemsCount::new(SAMPLES)).bench_local(|| {
         let mut closed = closed.clone();
         for k in 1..=SAMPLES {
@@ -72,6 +77,9 @@ fn navigate<const N: usize>(bencher: Bencher, sources: &str) {
     });
 }
 
+/// Six more states.
+const SCALE_FACTORS: &str = ", { scale_factor: { constant: { sigma: 100 ppm } } }";
+
 #[divan::bench]
 fn states_15(bencher: Bencher) {
     navigate::<16>(bencher, "");
@@ -79,5 +87,40 @@ fn states_15(bencher: Bencher) {
 
 #[divan::bench]
 fn states_21(bencher: Bencher) {
-    navigate::<24>(bencher, ", { scale_factor: { constant: { sigma: 100 ppm } } }");
+    navigate::<24>(bencher, SCALE_FACTORS);
+}
+
+/// The navigator alone, for the ratio within a run.
+#[divan::bench]
+fn without_filter(bencher: Bencher) {
+    let (start, increments, _) = motion();
+    let navigator = LocalLevel::new(&start, Gravity::Normal, Vertical::Free);
+    bencher.counter(ItemsCount::new(SAMPLES)).bench_local(|| {
+        let mut navigator = navigator;
+        for _ in 0..SAMPLES {
+            navigator.step(black_box(&increments), DT);
+        }
+        navigator.pva()
+    });
+}
+
+/// A fix and what belongs to it, without the samples between.
+#[divan::bench]
+fn fix_alone_15(bencher: Bencher) {
+    fix_alone::<16>(bencher, "");
+}
+
+#[divan::bench]
+fn fix_alone_21(bencher: Bencher) {
+    fix_alone::<24>(bencher, SCALE_FACTORS);
+}
+
+fn fix_alone<const N: usize>(bencher: Bencher, sources: &str) {
+    let (start, increments, fix) = motion();
+    let mut closed = ClosedLoop::<N>::new(&aided(sources), &start, Vertical::Free).expect("a filter");
+    closed.advance(&increments, DT);
+    bencher.bench_local(|| {
+        closed.advance(black_box(&increments), DT);
+        closed.measure(&fix).expect("an update");
+    });
 }

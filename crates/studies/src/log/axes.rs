@@ -25,6 +25,9 @@ impl AxisMap {
     /// Sensor axes that are body axes already.
     pub const IDENTITY: AxisMap = AxisMap([(0, 1.0), (1, 1.0), (2, 1.0)]);
 
+    /// Sensor axes right, front, up.
+    pub const RIGHT_FRONT_UP: AxisMap = AxisMap([(1, 1.0), (0, 1.0), (2, -1.0)]);
+
     /// From the words for forward, right and down, as in `["y", "x", "-z"]` for sensor axes right-front-up.
     ///
     /// # Errors

@@ -62,3 +62,24 @@ impl Clock {
         ClockFault { problem, found }
     }
 }
+
+/// Length of a GNSS week, s.
+const WEEK: f64 = 604_800.0;
+
+/// Seconds of a GNSS week, which begin anew at its end, as a time that goes on.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Week {
+    last: f64,
+    before: f64,
+}
+
+impl Week {
+    /// The time of a row that has the second `t` of its week.
+    pub fn unrolled(&mut self, t: f64) -> f64 {
+        if t < self.last - 0.5 * WEEK {
+            self.before += WEEK;
+        }
+        self.last = t;
+        t + self.before
+    }
+}

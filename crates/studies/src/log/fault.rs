@@ -18,16 +18,17 @@ pub(super) struct Field<'a> {
 impl Field<'_> {
     /// A fault in this field, shown in its row.
     pub fn fault(&self, problem: impl Into<String>) -> Diagnostic {
-        let texts: Vec<_> = self.rows.fields().map(String::from_utf8_lossy).collect();
-        let before: usize = texts.iter().take(self.index).map(|text| text.len() + 1).sum();
-        let row = texts.join(&char::from(self.rows.separator()).to_string());
-        let start = before.min(row.len());
-        let end = (start + texts.get(self.index).map_or(0, |text| text.len())).min(row.len());
-        let line = self.rows.number();
+        let (line, begin) = self.rows.around();
+        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        let span = self.rows.spans().nth(self.index).unwrap_or(0..0);
+        let row = text(line);
+        let start = text(&line[..begin + span.start]).len();
+        let end = start + text(&line[begin + span.start..begin + span.end]).len();
+        let number = self.rows.number();
         Diagnostic::new(self.file, problem)
-            .at(line, row[..start].chars().count() as u64 + 1)
+            .at(number, row[..start].chars().count() as u64 + 1)
             .path(self.name)
-            .excerpt(line, &row, start..end)
+            .excerpt(number, &row, start..end)
     }
 
     fn bytes(&self) -> &[u8] {

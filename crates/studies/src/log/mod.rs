@@ -1,5 +1,8 @@
 //! Recorded IMU logs: CSV or npy, either also gzipped, read row by row into increments along the body axes.
 //!
+//! Text is a table with comma, semicolon, tab or blanks between its fields, under a header or without one (the KF-GINS
+//! text formats are such tables), or holds RAWIMU messages of a NovAtel receiver, see [`message`].
+//!
 //! A log holds columns of up to three gyros and three accelerometers, as increments (integrals over the sample interval,
 //! what most instruments deliver) or as rates, in counts of a stated size and along sensor axes that a proper
 //! rotation of quarter turns takes to forward-right-down. The time of a row is the end of its interval.
@@ -23,6 +26,9 @@ mod bytes;
 mod clock;
 mod fault;
 mod find;
+#[cfg(test)]
+mod format_tests;
+pub mod message;
 mod npy;
 mod npy_header;
 #[cfg(test)]
@@ -37,7 +43,7 @@ mod tests;
 mod text;
 
 pub use axes::{AxesError, AxisMap};
-pub use beside::{Row, rows};
+pub use beside::{Layout, Row, rows};
 pub use find::{find, find_named};
 pub use reader::{LogReader, LogSample, titles};
 pub use spec::{ColumnRef, Columns, Content, LogSpec, Scale, TimeColumn};

@@ -35,7 +35,7 @@ fn f8(numbers: &[f64]) -> Vec<u8> {
 fn by_number() -> LogSpec {
     let mut spec = spec();
     spec.columns = Columns {
-        time: Some(TimeColumn { column: ColumnRef::Number(1), scale: 1.0 }),
+        time: Some(TimeColumn { column: ColumnRef::Number(1), scale: 1.0, week: false }),
         gyro: [2, 3, 4].map(ColumnRef::Number).to_vec(),
         accel: [5, 6, 7].map(ColumnRef::Number).to_vec(),
     };
@@ -76,7 +76,7 @@ fn an_array_is_the_same_log_as_the_text() {
     let records: Vec<u8> = body().as_chunks::<7>().0.iter().flat_map(record).collect();
     let descr = "[('t', '<i8'), ('gx', '<f4'), ('gy', '<i4'), ('gz', '<i2'), ('ax', '<f8'), ('ay', '<f8'), ('az', '<f8')]";
     let mut by_name = spec();
-    by_name.columns.time = Some(TimeColumn { column: ColumnRef::Name("t".into()), scale: 1e-3 });
+    by_name.columns.time = Some(TimeColumn { column: ColumnRef::Name("t".into()), scale: 1e-3, week: false });
     assert_eq!(read(&by_name, file(descr, "False", "(3,)", &records)).unwrap(), samples);
 }
 

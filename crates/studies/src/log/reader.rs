@@ -8,7 +8,7 @@ use flate2::bufread::MultiGzDecoder;
 use schuler_strapdown::Increments;
 
 use super::bytes::Counted;
-use super::clock::Clock;
+use super::clock::{Clock, Week};
 use super::npy::{self, NpyRows};
 use super::slots::{SLOTS, TIME, Wanted, wanted};
 use super::text::TextRows;
@@ -33,6 +33,7 @@ pub struct LogReader {
     /// Factors from counts to increments and seconds.
     per_count: [f64; SLOTS],
     clock: Option<Clock>,
+    week: Option<Week>,
     /// Samples delivered so far.
     count: u64,
     done: bool,
@@ -64,6 +65,12 @@ impl Rows {
             _ => Box::new(bytes),
         };
         Ok(match plain.fill_buf().map_err(failed)? {
+            [b'P', b'A', b'R', b'1', ..] => {
+                return Err(Diagnostic::new(file, "a Parquet file, which is not read as a log")
+                    .expected("text, or a NumPy array (npy); either also gzipped")
+                    .help("with pandas: `read_parquet(FILE).to_csv(LOG, index=False)`")
+                    .into());
+            }
             [npy::FIRST, ..] => Rows::Npy(NpyRows::new(file, plain, wanted)?),
             _ => Rows::Text(TextRows::new(file, plain, wanted)?),
         })
@@ -74,6 +81,14 @@ impl Rows {
         match self {
             Rows::Text(rows) => rows.advance(),
             Rows::Npy(rows) => rows.advance(),
+        }
+    }
+
+    /// Number of columns, read or not.
+    pub fn width(&self) -> usize {
+        match self {
+            Rows::Text(rows) => rows.titles.len(),
+            Rows::Npy(rows) => rows.titles.len(),
         }
     }
 
@@ -138,6 +153,7 @@ impl LogReader {
             rows,
             per_count: [a, b, c, d, e, f, time],
             clock: None,
+            week: spec.columns.time.as_ref().filter(|time| time.week).map(|_| Week::default()),
             count: 0,
             done: false,
             size: None,
@@ -168,12 +184,13 @@ impl LogReader {
         })
     }
 
-    fn sample(&self, counts: [f64; SLOTS]) -> LogSample {
+    fn sample(&mut self, counts: [f64; SLOTS]) -> LogSample {
         let mut values = counts;
         for (value, per_count) in values.iter_mut().zip(&self.per_count) {
             *value *= per_count;
         }
         let [a, b, c, d, e, f, time] = values;
+        let time = self.week.as_mut().map_or(time, |week| week.unrolled(time));
         let t =
             if self.spec.columns.time.is_some() { time } else { (self.count + 1) as f64 / self.spec.rate };
         let axes = &self.spec.axes;

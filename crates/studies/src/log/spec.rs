@@ -74,6 +74,8 @@ pub struct TimeColumn {
     pub column: ColumnRef,
     /// Seconds per count, positive.
     pub scale: f64,
+    /// Whether these are seconds of a GNSS week, which begin anew at its end.
+    pub week: bool,
 }
 
 /// A column by its name in the header, or by its number.

@@ -22,7 +22,7 @@ pub(super) fn spec() -> LogSpec {
         rate: 100.0,
         content: Content::Increments,
         columns: Columns {
-            time: Some(TimeColumn { column: name("t"), scale: 1.0 }),
+            time: Some(TimeColumn { column: name("t"), scale: 1.0, week: false }),
             gyro: ["gx", "gy", "gz"].map(name).to_vec(),
             accel: ["ax", "ay", "az"].map(name).to_vec(),
         },
@@ -255,7 +255,7 @@ fn the_mems_vehicle_log_is_read_whole() {
     let mut spec = spec();
     spec.file = "psins/mems_vehicle_imu.csv.gz".into();
     spec.columns = Columns {
-        time: Some(TimeColumn { column: name("t_s"), scale: 1.0 }),
+        time: Some(TimeColumn { column: name("t_s"), scale: 1.0, week: false }),
         gyro: ["dthx_rad", "dthy_rad", "dthz_rad"].map(name).to_vec(),
         accel: ["dvx_mps", "dvy_mps", "dvz_mps"].map(name).to_vec(),
     };

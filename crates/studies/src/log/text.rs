@@ -4,7 +4,7 @@ use std::io::BufRead;
 use std::path::{Path, PathBuf};
 
 use super::fault::{self, Field};
-use super::rows::Rows;
+use super::rows::{BLANK, Rows, blanks};
 use super::slots::{SLOTS, Wanted, names, settle};
 use super::{ColumnRef, number};
 use crate::{Diagnostic, Error};
@@ -76,15 +76,21 @@ impl TextRows {
 
     /// The numbers of the current row in the order of their slots.
     fn numbers(&self) -> Result<[f64; SLOTS], Error> {
+        if !self.rows.is_whole() {
+            return Err(self.damaged().into());
+        }
         let mut numbers = [0.0; SLOTS];
-        let separator = self.rows.separator();
+        let blank = self.rows.separator() == BLANK;
         let mut rest = self.rows.line();
+        if blank {
+            rest = rest[blanks(rest)..].trim_ascii_end();
+        }
         for (index, slot) in self.slots.iter().enumerate() {
-            let ends = |(_, used): &(f64, usize)| rest.get(*used).is_none_or(|b| *b == separator);
+            let ends = |(_, used): &(f64, usize)| rest.get(*used).is_none_or(|b| self.rows.ends(*b));
             let known = slot.and_then(|_| number::leading(rest)).filter(ends);
             let end = match known {
                 Some((_, used)) => used,
-                None => rest.iter().position(|b| *b == separator).unwrap_or(rest.len()),
+                None => rest.iter().position(|b| self.rows.ends(*b)).unwrap_or(rest.len()),
             };
             if let Some(slot) = *slot {
                 let value = match known {
@@ -102,9 +108,22 @@ impl TextRows {
             if last != (end == rest.len()) {
                 return Err(self.wrong_row(None));
             }
-            rest = if last { &[] } else { &rest[end + 1..] };
+            rest = match (last, blank) {
+                (true, _) => &[],
+                (false, false) => &rest[end + 1..],
+                (false, true) => &rest[end + blanks(&rest[end..])..],
+            };
         }
         Ok(numbers)
+    }
+
+    /// The error of a message that is not as it was sent.
+    #[cold]
+    fn damaged(&self) -> Diagnostic {
+        self.field(0, SLOTS)
+            .fault("the message does not fit its checksum")
+            .expected("a message as the receiver wrote it")
+            .help("the line is damaged: take it out, and mend the gap")
     }
 
     /// The error of a row that has another number of fields than the first, or no number at `(index, slot)`.

@@ -68,7 +68,7 @@ impl Document {
             key.as_ref().map(|k| k.node)
         }
         use StudyKind::{Align, Allan, Budget, Drift, Imu, Navigate, Simulate};
-        let keys: [(Option<NodeId>, &[StudyKind]); 12] = [
+        let keys: [(Option<NodeId>, &[StudyKind]); 13] = [
             (node(&w.motion), &[Imu, Drift, Simulate, Align, Budget]),
             (node(&w.imu), &[Imu, Drift, Simulate, Align, Budget]),
             (node(&w.gravity), &[Simulate]),
@@ -81,6 +81,7 @@ impl Document {
             (node(&w.alignment), &[Align]),
             (node(&w.budget), &[Budget]),
             (w.output.as_ref().and_then(|output| node(&output.value.allan)), &[Imu]),
+            (w.output.as_ref().and_then(|output| node(&output.value.logs)), &[Simulate]),
         ];
         for (node, studies) in keys {
             if let Some(node) = node.filter(|_| !studies.contains(&w.study.value)) {
@@ -143,6 +144,14 @@ impl Document {
         let start = self.required_start(w, "navigate")?;
         let mechanization = self.mechanization(w, "navigate")?;
         if let Some(filter) = &w.filter {
+            if w.align.is_none() && w.start.as_ref().is_some_and(|start| start.value.attitude.is_none()) {
+                return Err(self
+                    .diagnostic(Spot::Node(filter.node), "the attitude at the start is not known")
+                    .expected(
+                        "`attitude` below `start`, or `align`: no navigator and no lever arm goes without",
+                    )
+                    .example("align: { method: triad, window: [0 s, 300 s] }"));
+            }
             let align = w.align.as_ref().map(|align| self.align_window(align)).transpose()?;
             let common = Common { log, start, align, mechanization, duration };
             return Ok(Study::Aided(Box::new(self.aided(w, filter, common)?)));
@@ -250,7 +259,7 @@ impl Document {
     fn output(&self, output: Option<&At<written::Output>>, rate: f64) -> Result<Output, Diagnostic> {
         let Some(w) = output.map(|o| &o.value) else {
             let formats = Formats { csv: true, png: true, svg: false };
-            return Ok(Output { every: None, formats, imu: Content::Rates });
+            return Ok(Output { every: None, formats, imu: Content::Rates, kf_gins: false });
         };
         let every = w.every.as_ref().map(|every| self.every(every, rate)).transpose()?;
         let formats = w.formats.as_ref().map_or(Formats { csv: true, png: true, svg: false }, |formats| {
@@ -261,7 +270,12 @@ impl Document {
                 svg: has(|f| matches!(f, written::Format::Svg)),
             }
         });
-        Ok(Output { every, formats, imu: w.imu.map_or(Content::Rates, content) })
+        Ok(Output {
+            every,
+            formats,
+            imu: w.imu.map_or(Content::Rates, content),
+            kf_gins: w.logs.as_ref().is_some_and(|logs| !logs.value.is_empty()),
+        })
     }
 
     /// Rows are states after whole updates.

@@ -110,6 +110,18 @@ impl Document {
             outages.push([begin, end]);
         }
         let sigma = self.each_axis(&w.sigma, unit, Range::NonNegative)?;
-        Ok(Aid { stride: stride as u64, sigma, lever_arm, outages })
+        let seconds = |q: &Option<written::Quantity>, range| {
+            q.as_ref().map_or(Ok(0.0), |q| self.quantity(q, Unit::SECOND, range))
+        };
+        let phase = seconds(&w.phase, Range::NonNegative)?;
+        if phase * rate >= stride {
+            let node = w.phase.as_ref().map_or(aid.node, |q| q.node);
+            return Err(self
+                .diagnostic(Spot::Node(node), "a phase of an interval or more")
+                .expected(format!("less than {} s", stride / rate))
+                .found(format!("{phase} s")));
+        }
+        let offset = seconds(&w.offset, Range::Any)?;
+        Ok(Aid { stride: stride as u64, sigma, lever_arm, outages, phase, offset })
     }
 }

@@ -29,9 +29,10 @@ mod tests;
 mod valid;
 mod valid_motion;
 mod written;
+mod written_log;
 mod written_motion;
 
-pub use aided::valid::{Aided, Condition, ConditionKind, Measured, MeasuredKind, Reference};
+pub use aided::valid::{Aided, Condition, ConditionKind, Detect, Measured, MeasuredKind, Reference};
 pub use alignment::valid::{
     AlignStudy, Coarse, FilterSettings, Knock, Method, MethodKind, Origin, Strategy, StrategyKind, Velocity,
 };

@@ -287,6 +287,8 @@ pub struct Output {
     pub formats: Formats,
     /// Form of `imu.csv`.
     pub imu: Content,
+    /// Whether logs are written in the text formats of KF-GINS too.
+    pub kf_gins: bool,
 }
 
 /// Kinds of files.

@@ -197,4 +197,8 @@ pub struct Aid {
     pub lever_arm: [f64; 3],
     /// Begin and end of times without measurement, s.
     pub outages: Vec<[f64; 2]>,
+    /// From the end of a sample of the IMU to the measurement, s.
+    pub phase: f64,
+    /// What has to be added to the times of the log to get those of the IMU, s.
+    pub offset: f64,
 }

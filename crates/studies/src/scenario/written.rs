@@ -8,9 +8,11 @@ use super::{
     alignment::written::Alignment,
     budget::written::Budget,
     de::At,
-    schema::{Scalar, Sources, Title},
+    schema::{Scalar, Sources},
     written_motion::{Aiding, Motion},
 };
+
+pub use super::written_log::{Content, Log, LogFormat};
 
 /// A quantity with its unit, `0.01 deg/h`; a number alone where it has no dimension.
 pub type Quantity = At<Scalar>;
@@ -372,64 +374,6 @@ pub enum Gravity {
     Somigliana,
 }
 
-/// A recorded IMU log: CSV or a NumPy array (npy), either also gzipped.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Log {
-    /// File; looked up in the data folder (`--data`, `SCHULER_DATA`), then beside the scenario.
-    pub file: At<String>,
-    /// Where the data come from, for whoever does not have the file.
-    pub source: Option<String>,
-    /// Samples a second.
-    pub rate: Quantity,
-    /// What a row holds: `increments` (integrals over the interval that ends at the row's time) or `rates`.
-    pub content: Content,
-    /// Where in a row the numbers stand.
-    pub columns: Columns,
-    /// What one count of a column is: `{ gyro: 0.1 arcsec, accel: 1 mm/s }`; one for the instrument or three.
-    pub scale: Scales,
-    /// Sensor axis that points along body x (forward), y (right) and z (down): `[y, x, -z]`; `[x, y, z]` when absent.
-    pub axes: Option<At<[At<String>; 3]>>,
-    /// Whether the instrument stood still at `start.position` all the time, so that drift can be told; false when absent.
-    pub stationary: Option<bool>,
-}
-
-/// What a row of a log holds.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Content {
-    /// Angle and velocity increments over the interval that ends at the row's time.
-    Increments,
-    /// Angular rate and specific force.
-    Rates,
-}
-
-/// Columns of a log.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Columns {
-    /// Time, where the log has it; it is checked for gaps and order.
-    pub time: Option<Title>,
-    /// Gyro x, y, z; `study: allan` also takes fewer axes, or none.
-    #[schemars(length(min = 1, max = 3))]
-    pub gyro: Option<At<Vec<Title>>>,
-    /// Accelerometer x, y, z; `study: allan` also takes fewer axes, or none.
-    #[schemars(length(min = 1, max = 3))]
-    pub accel: Option<At<Vec<Title>>>,
-}
-
-/// What one count of a column is.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Scales {
-    /// Angle (increments) or angular rate (rates) of one count.
-    pub gyro: Option<At<OneOrThree>>,
-    /// Velocity (increments) or specific force (rates) of one count.
-    pub accel: Option<At<OneOrThree>>,
-    /// Time of one count of the time column; `1 s` when absent.
-    pub time: Option<Quantity>,
-}
-
 /// One quantity for all axes, or a list of three.
 pub type OneOrThree = super::schema::OneOrMore;
 
@@ -463,6 +407,16 @@ pub struct Output {
     pub imu: Option<Content>,
     /// Whether the study `imu` draws Allan deviations of its errors beside those of theory; false when absent.
     pub allan: Option<At<bool>>,
+    /// Formats in which the study `simulate` writes its logs once more: `[kf_gins]`; none when absent.
+    pub logs: Option<At<Vec<At<TextLogs>>>>,
+}
+
+/// Text formats of other programs.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum TextLogs {
+    /// `imu.txt`, `gnss.txt` (where a position is measured) and `truth.nav` for KF-GINS.
+    KfGins,
 }
 
 /// Kinds of files.

@@ -343,4 +343,8 @@ pub struct Aid {
     pub lever_arm: Option<At<[Quantity; 3]>>,
     /// Times without measurement, `[[100 s, 160 s]]`.
     pub outages: Option<At<Vec<At<[Quantity; 2]>>>>,
+    /// How long after a sample of the IMU it is taken, less than an interval of these measurements; 0 s when absent.
+    pub phase: Option<Quantity>,
+    /// Time of the log of the IMU minus time that this log has: its clock is wrong by this much; 0 s when absent.
+    pub offset: Option<Quantity>,
 }

@@ -49,14 +49,24 @@ impl Aids {
         self.0.iter().any(|measured| k.is_multiple_of(measured.aid.stride))
     }
 
-    /// Measures what is due at the end of sample `k`, at the time `t` (s).
-    pub fn measure(&mut self, k: u64, t: f64, moment: &Moment) {
+    /// Measures what is due at the end of sample `k`, at the time `t` (s), or its phase later but not after `end` (s).
+    pub fn measure(&mut self, k: u64, t: f64, moment: &Moment, end: f64, later: impl Fn(f64) -> Moment) {
         for Measured { kind, aid, draws, table } in &mut self.0 {
+            let moved;
+            let (t, moment) = match aid.phase {
+                0.0 => (t, moment),
+                phase if t + phase > end || !k.is_multiple_of(aid.stride) => continue,
+                phase => {
+                    moved = later(t + phase);
+                    (t + phase, &moved)
+                }
+            };
             let out = aid.outages.iter().any(|[begin, end]| (*begin..*end).contains(&t));
             if !k.is_multiple_of(aid.stride) || out {
                 continue;
             }
             let normals = draws.normals(k);
+            let t = t - aid.offset;
             let noise: Vec3<T> = Vec3::claim([0, 1, 2].map(|axis| aid.sigma[axis] * normals[axis]));
             let [sigma_n, sigma_e, sigma_d] = aid.sigma;
             let numbers = |numbers: &[f64]| numbers.iter().map(|x| Cell::Number(*x)).collect::<Vec<_>>();

@@ -2,6 +2,7 @@
 
 mod aiding;
 mod figures;
+mod kf_gins;
 mod recorded;
 #[cfg(test)]
 mod tests;
@@ -41,6 +42,7 @@ pub fn run(scenario: &Scenario, study: &Simulate, context: &Context) -> Result<R
     }
     let rate = study.imu.rate;
     let dt = 1.0 / rate;
+    let duration = study.samples as f64 / rate;
     let (trajectory, residual) = recorded::trajectory(scenario, study, &study.motion, context)?;
     let truth = Truth::boxed(trajectory, study.gravity);
     let mut imu = Imu::new(&study.imu.spec, Stream { seed: scenario.seed, run: 0 })?;
@@ -74,7 +76,7 @@ pub fn run(scenario: &Scenario, study: &Simulate, context: &Context) -> Result<R
             if kept {
                 states.push(&state(end, &moment));
             }
-            aids.measure(k + 1, end, &moment);
+            aids.measure(k + 1, end, &moment, duration, |t| truth.moment(t));
         }
         if (k + 1).is_multiple_of(REPORT) {
             context.progress.advance(REPORT);
@@ -86,6 +88,12 @@ pub fn run(scenario: &Scenario, study: &Simulate, context: &Context) -> Result<R
     record.texts = track::texts(&scenario.title, &states);
     record.tables = vec![states, ideal, measured];
     record.tables.extend(aids.tables());
+    if scenario.output.kf_gins {
+        record.texts.extend(kf_gins::texts(&record.tables, dt));
+        record.notes.push(
+            "imu.txt, gnss.txt and truth.nav are in the text formats of KF-GINS; the GNSS week is 0, the second the time".into(),
+        );
+    }
     record.notes.push(format!(
         "imu_ideal.csv and imu.csv hold {} over the interval that ends at t_s",
         match content {

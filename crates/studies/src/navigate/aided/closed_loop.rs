@@ -1,12 +1,13 @@
 //! A navigator and an error-state filter, closed after every measurement.
 
-use schuler_frames::{Gravity, Vec3};
+use schuler_frames::{B, Gravity, Vec3, earth::omega_ie_t};
 use schuler_imu::{Instrument, Truth};
 use schuler_strapdown::filter::{
     Accumulator, Filter, FilterError, Form, Gate, Measurement, Model, NavStates, Now, Outcome,
 };
 use schuler_strapdown::{ErrorDynamics, Increments, LocalLevel, NavError, Pva, Vertical};
 
+use super::{gathered::Gathered, sensors::SensorErrors};
 use crate::scenario::Aided;
 
 /// Longest interval over which a transition is gathered, s.
@@ -21,10 +22,15 @@ pub struct ClosedLoop<const N: usize> {
     filter: Filter<N>,
     navigator: LocalLevel,
     accumulator: Accumulator<N>,
+    /// What the accumulator has not seen yet.
+    gathered: Gathered,
+    errors: SensorErrors,
+    /// Whether the filter knows more than `errors` does.
+    stale: bool,
     gravity: Gravity,
     vertical: Vertical,
     /// What the sensors saw last, freed of the errors known, and its interval (s).
-    seen: (Truth, f64),
+    seen: (Increments, f64),
 }
 
 impl<const N: usize> ClosedLoop<N> {
@@ -40,33 +46,56 @@ impl<const N: usize> ClosedLoop<N> {
         }
         let gravity = aided.mechanization.gravity;
         let accumulator = Accumulator::new(filter.model(), ErrorDynamics { gravity, vertical }, pva);
-        let navigator = LocalLevel::new(pva, gravity, vertical);
-        let seen = (Truth::rates([0.0; 3], [0.0; 3]), 1.0);
-        Ok(ClosedLoop { filter, navigator, accumulator, gravity, vertical, seen })
+        Ok(ClosedLoop {
+            errors: SensorErrors::new(&filter),
+            stale: false,
+            filter,
+            navigator: LocalLevel::new(pva, gravity, vertical),
+            accumulator,
+            gathered: Gathered::default(),
+            gravity,
+            vertical,
+            seen: (Increments { dtheta: Vec3::ZERO, dv: Vec3::ZERO }, 1.0),
+        })
     }
 
     /// Goes on by the increments measured over `dt` (s).
     #[inline]
     pub fn advance(&mut self, measured: &Increments, dt: f64) {
-        let seen = Truth::increments(measured.dtheta.as_array(), measured.dv.as_array());
-        let error = |instrument| Vec3::claim(self.filter.sensor_error(instrument, &seen, dt));
-        let freed = Increments {
-            dtheta: measured.dtheta - error(Instrument::Gyro) * dt,
-            dv: measured.dv - error(Instrument::Accel) * dt,
-        };
+        if self.stale {
+            self.errors.refresh(&self.filter);
+            self.stale = false;
+        }
+        let (dtheta, dv) = (measured.dtheta.as_array(), measured.dv.as_array());
+        let [gyro, accel] = self.errors.integrated(&self.filter, dtheta, dv, dt);
+        let freed =
+            Increments { dtheta: measured.dtheta - Vec3::claim(gyro), dv: measured.dv - Vec3::claim(accel) };
         self.navigator.step(&freed, dt);
-        self.accumulator.step(self.filter.model(), &self.navigator.pva(), &freed, dt);
-        self.seen = (Truth::increments(freed.dtheta.as_array(), freed.dv.as_array()), dt);
-        if self.accumulator.elapsed() > LONGEST - 0.5 * dt {
-            self.close();
+        self.gathered.push(&freed, dt);
+        self.seen = (freed, dt);
+        if self.gathered.is_full(dt) {
+            self.gather();
+            if self.accumulator.elapsed() > LONGEST - 0.5 * dt {
+                self.close();
+            }
+        }
+    }
+
+    /// Hands the samples gathered to the accumulator.
+    fn gather(&mut self) {
+        if self.gathered.t > 0.0 {
+            let (increments, t) = self.gathered.take();
+            self.accumulator.step(self.filter.model(), &self.navigator.pva(), &increments, t);
         }
     }
 
     /// Brings the covariance to the time of the navigator.
     pub fn close(&mut self) {
+        self.gather();
         if self.accumulator.elapsed() > 0.0 {
             let step = self.accumulator.close(self.filter.model());
             self.filter.propagate(&step);
+            self.stale = true;
         }
     }
 
@@ -77,13 +106,27 @@ impl<const N: usize> ClosedLoop<N> {
     pub fn measure(&mut self, measurement: &dyn Measurement) -> Result<Outcome, FilterError> {
         self.close();
         let pva = self.navigator.pva();
-        let outcome = self.filter.update(measurement, &Now { pva, seen: self.seen.0, dt: self.seen.1 })?;
+        let outcome = self.filter.update(measurement, &Now { pva, seen: self.truth(), dt: self.seen.1 })?;
         if outcome.accepted[..outcome.len].contains(&true) {
             let pva = self.filter.feedback(&pva);
             self.navigator = LocalLevel::new(&pva, self.gravity, self.vertical);
             self.accumulator.begin(self.filter.model(), &pva);
+            self.stale = true;
         }
         Ok(outcome)
+    }
+
+    /// Angular rate omega_eb^b (rad/s) and specific force (m/s²) of the last step, freed of the errors known.
+    pub fn motion(&self) -> (Vec3<B>, Vec3<B>) {
+        let (Increments { dtheta, dv }, rate) = (self.seen.0, 1.0 / self.seen.1);
+        let pva = self.navigator.pva();
+        let (s, c) = libm::sincos(pva.position.lat);
+        let earth = pva.c_tb.inverse() * omega_ie_t(s, c).as_vec3();
+        (dtheta * rate - earth, dv * rate)
+    }
+
+    fn truth(&self) -> Truth {
+        Truth::increments(self.seen.0.dtheta.as_array(), self.seen.0.dv.as_array())
     }
 
     /// State of the navigator.
@@ -100,7 +143,8 @@ impl<const N: usize> ClosedLoop<N> {
 
     /// Errors of gyros and accelerometers along body axes as estimated, rad/s and m/s².
     pub fn sensor_errors(&self) -> [[f64; 3]; 2] {
-        Instrument::ALL.map(|i| self.filter.sensor_error(i, &self.seen.0, self.seen.1))
+        let seen = self.truth();
+        Instrument::ALL.map(|i| self.filter.sensor_error(i, &seen, self.seen.1))
     }
 
     /// Name, estimate and standard deviation of each state of the error sources.

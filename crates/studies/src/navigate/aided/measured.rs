@@ -7,7 +7,6 @@ use schuler_strapdown::filter::{
 };
 
 use crate::log::{self, ColumnRef};
-use crate::record::columns;
 use crate::scenario::{Condition, ConditionKind, Measured, MeasuredKind};
 use crate::{Context, Diagnostic, Error, Scenario};
 
@@ -57,7 +56,7 @@ pub fn read(
     for (source, m) in measured.iter().enumerate() {
         let key = format!("filter.measurements.{}.file", m.kind.name());
         let file = log::find_named(&m.file, &key, "", context.data.as_deref(), &scenario.file)?;
-        let rows = log::rows(&file, &with_sigma(m))?;
+        let rows = log::rows(&file, &with_sigma(m), m.layout)?;
         let time = |row: &log::Row| m.signs[0] * row[0] + m.offset;
         let mut last = f64::NEG_INFINITY;
         for (k, row) in rows.iter().enumerate() {
@@ -81,15 +80,8 @@ pub fn read(
 
 /// The columns that are read: where the scenario states no standard deviation, also those of it.
 fn with_sigma(m: &Measured) -> Vec<ColumnRef> {
-    let names: &[&str] = match (m.sigma, m.kind) {
-        (Some(_), _) => &[],
-        (None, MeasuredKind::Position) => &columns::POSITION_AID[4..],
-        (None, MeasuredKind::Velocity) => &columns::VELOCITY_AID[4..],
-        (None, MeasuredKind::Height) => &columns::HEIGHT_AID[2..],
-        (None, MeasuredKind::Heading) => &columns::HEADING_AID[2..],
-    };
-    let names = names.iter().map(|name| ColumnRef::Name(name.to_string()));
-    m.columns.iter().cloned().chain(names).collect()
+    let deviations = m.sigma_columns.iter().filter(|_| m.sigma.is_none());
+    m.columns.iter().chain(deviations).cloned().collect()
 }
 
 /// A row as a measurement; else what is wrong with it and what was expected.

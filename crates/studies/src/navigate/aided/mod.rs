@@ -4,10 +4,14 @@
 //! the measurement, is corrected, and goes on with the rest.
 
 mod closed_loop;
+mod consistency;
 mod figures;
+mod gathered;
 mod measured;
 mod reference;
 mod report;
+mod sensors;
+mod standstill;
 #[cfg(test)]
 mod tests;
 
@@ -25,6 +29,7 @@ use crate::scenario::Aided;
 use crate::{Context, Diagnostic, Error, Scenario, channel};
 use measured::{Event, Span};
 use reference::Known;
+use standstill::Standstill;
 
 /// Share of a sample within which a measurement is taken as being at its end, and a reference row at a row.
 const SLACK: f64 = 1e-3;
@@ -58,6 +63,8 @@ struct Found {
     updates: Vec<Update>,
     /// Samples of the log, those before the start too.
     samples: u64,
+    /// How often each condition looked for a standstill, and found one.
+    looked: Vec<(u64, u64)>,
 }
 
 /// Runs a navigate study with a filter, in one pass over the log of the IMU; logs of measurements are kept whole.
@@ -133,6 +140,8 @@ struct Pass<'a, const N: usize> {
     /// The navigator, its conditions, and the samples before it started.
     running: Option<(ClosedLoop<N>, u64)>,
     conditions: Vec<Box<dyn Measurement>>,
+    /// What tells a standstill, of the conditions that ask for one.
+    standstills: Vec<Option<Standstill>>,
     window: Mean,
     /// Next measurement.
     next: usize,
@@ -170,10 +179,11 @@ impl Job<'_> {
             job: self,
             running: None,
             conditions: self.aided.conditions.iter().map(|c| measured::known(c, held)).collect(),
+            standstills: self.aided.conditions.iter().map(|c| c.detect.map(Standstill::new)).collect(),
             window: Mean::default(),
             next: 0,
             before: f64::NAN,
-            found: Found::default(),
+            found: Found { looked: vec![(0, 0); self.aided.conditions.len()], ..Found::default() },
         }
     }
 
@@ -263,6 +273,12 @@ impl<const N: usize> Pass<'_, N> {
         if done < 1.0 {
             part(closed, &sample.increments, dt, 1.0 - done);
         }
+        if self.standstills.iter().any(Option::is_some) {
+            let (omega, f) = closed.motion();
+            for standstill in self.standstills.iter_mut().flatten() {
+                standstill.push(omega, f);
+            }
+        }
         let k = self.found.samples - *first;
         for (i, (condition, known)) in job.aided.conditions.iter().zip(&self.conditions).enumerate() {
             let holds = condition
@@ -270,6 +286,16 @@ impl<const N: usize> Pass<'_, N> {
                 .as_ref()
                 .is_none_or(|windows| windows.iter().any(|[begin, end]| (*begin..=*end).contains(&t)));
             if holds && k.is_multiple_of(condition.stride) {
+                if let Some(standstill) = &self.standstills[i] {
+                    let pva = closed.pva();
+                    let g = job.aided.mechanization.gravity.gravity_t(pva.position).norm();
+                    let speed = pva.v_t.norm();
+                    self.found.looked[i].0 += 1;
+                    if !standstill.holds(g, speed) {
+                        continue;
+                    }
+                    self.found.looked[i].1 += 1;
+                }
                 let outcome = closed
                     .measure(known.as_ref())
                     .map_err(|fault| job.failed(t, condition.kind.name(), fault))?;

@@ -22,9 +22,9 @@ pub fn read(scenario: &Scenario, reference: &Reference, context: &Context) -> Re
     let data = context.data.as_deref();
     let file = log::find_named(&reference.file, "filter.reference.file", "", data, &scenario.file)?;
     let (columns, signs, angle) = (&reference.columns, &reference.signs, reference.angle);
-    let places = log::rows(&file, &columns[..FIRST])?;
+    let places = log::rows(&file, &columns[..FIRST], reference.layout)?;
     let with_time: Vec<_> = columns[..1].iter().chain(&columns[FIRST..]).cloned().collect();
-    let rest = log::rows(&file, &with_time)?;
+    let rest = log::rows(&file, &with_time, reference.layout)?;
     let rows = places.iter().zip(&rest).map(|(place, rest)| {
         let x: Vec<f64> =
             place[..FIRST].iter().chain(&rest[1..]).zip(signs).map(|(x, sign)| sign * x).collect();

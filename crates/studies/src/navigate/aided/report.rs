@@ -2,10 +2,10 @@
 
 use schuler_strapdown::filter::chi_square;
 
-use super::figures;
 use super::measured::Event;
 use super::reference::Known;
 use super::{Found, Row};
+use super::{consistency, figures};
 use crate::Scenario;
 use crate::record::{Cell, Record, Table, columns};
 use crate::scenario::Aided;
@@ -191,7 +191,14 @@ fn notes(aided: &Aided, found: &Found) -> Vec<String> {
             );
         }
         notes.push(note);
+        notes.extend(consistency::innovations(name(aided, number), offered, refused, nis, high));
     }
+    for (condition, (looked, held)) in aided.conditions.iter().zip(&found.looked) {
+        if condition.detect.is_some() {
+            notes.push(format!("{}: a standstill in {held} of {looked} looks", condition.kind.name()));
+        }
+    }
+    notes.extend(consistency::errors(&found.rows));
     let errors: Vec<_> =
         found.rows.iter().filter_map(|row| row.error.as_ref().map(|(error, _)| error)).collect();
     if !errors.is_empty() {

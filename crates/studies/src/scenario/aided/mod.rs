@@ -20,10 +20,10 @@ use super::{
 };
 use crate::{
     Diagnostic,
-    log::{ColumnRef, LogSpec},
+    log::{ColumnRef, Layout, LogSpec},
     record::columns,
 };
-use valid::{Aided, Condition, ConditionKind, Measured, MeasuredKind, Reference};
+use valid::{Aided, Condition, ConditionKind, Detect, Measured, MeasuredKind, Reference};
 
 const SPEED: Unit = Unit::METRE.over(Unit::SECOND);
 
@@ -138,13 +138,33 @@ impl Document {
 
     fn measured(&self, kind: MeasuredKind, w: &At<written::Measured>) -> Result<Measured, Diagnostic> {
         let m = &w.value;
-        let (standard, unit): (&[&str], Unit) = match kind {
-            MeasuredKind::Position => (&columns::POSITION_AID[..4], Unit::METRE),
-            MeasuredKind::Velocity => (&columns::VELOCITY_AID[..4], SPEED),
-            MeasuredKind::Height => (&columns::HEIGHT_AID[..2], Unit::METRE),
-            MeasuredKind::Heading => (&columns::HEADING_AID[..2], Unit::RADIAN),
+        let (names, unit): (&[&str], Unit) = match kind {
+            MeasuredKind::Position => (&columns::POSITION_AID, Unit::METRE),
+            MeasuredKind::Velocity => (&columns::VELOCITY_AID, SPEED),
+            MeasuredKind::Height => (&columns::HEIGHT_AID, Unit::METRE),
+            MeasuredKind::Heading => (&columns::HEADING_AID, Unit::RADIAN),
         };
-        let (columns, signs) = self.signed(m.columns.as_ref(), standard)?;
+        let (standard, of_sigma) = names.split_at(1 + kind.parts().len());
+        let name = |name: &&str| ColumnRef::Name(name.to_string());
+        let (mut columns, signs) = self.signed(m.columns.as_ref(), standard)?;
+        let mut sigma_columns: Vec<_> = of_sigma.iter().map(name).collect();
+        let mut angle = self.angle_count(&m.angle)?;
+        let mut layout = Layout::default();
+        if let Some(format) = &m.format {
+            self.format_alone(&m.columns, &m.angle)?;
+            let (what, deviations): (&[usize], &[usize]) = match kind {
+                MeasuredKind::Position => (&[1, 2, 3, 4], &[5, 6, 7]),
+                MeasuredKind::Height => (&[1, 4], &[7]),
+                MeasuredKind::Velocity | MeasuredKind::Heading => {
+                    return Err(self
+                        .diagnostic(Spot::Node(format.node), format!("this format has no {}", kind.name()))
+                        .expected("a position or a height, or `columns`"));
+                }
+            };
+            [columns, sigma_columns] =
+                [what, deviations].map(|n| n.iter().map(|n| ColumnRef::Number(*n)).collect());
+            (angle, layout) = (1f64.to_radians(), Layout { week: true, fields: Some(7) });
+        }
         if let (MeasuredKind::Heading, Some(arm)) = (kind, &m.lever_arm) {
             return Err(self
                 .diagnostic(Spot::Node(arm.node), "a heading has no lever arm")
@@ -158,7 +178,9 @@ impl Document {
             file: m.file.value.clone(),
             columns,
             signs,
-            angle: self.angle_count(&m.angle)?,
+            layout,
+            sigma_columns,
+            angle,
             sigma: m.sigma.as_ref().map(|s| self.each_axis(s, unit, Range::Positive)).transpose()?,
             offset: seconds(&m.offset, Range::Any)?,
             every: seconds(&m.every, Range::Positive)?,
@@ -179,6 +201,11 @@ impl Document {
                 .diagnostic(Spot::Node(arm.node), format!("`{}` has no lever arm", kind.name()))
                 .help("take it out"));
         }
+        if let (ConditionKind::NonHolonomic, Some(detect)) = (kind, &c.detect) {
+            return Err(self
+                .diagnostic(Spot::Node(detect.node), "`non_holonomic` holds at a standstill and on the way")
+                .help("take it out, or state `windows`"));
+        }
         let unit = if kind == ConditionKind::ZeroRate { Unit::RATE } else { SPEED };
         let every = c.every.as_ref().map_or(Ok(1.0), |q| self.quantity(q, Unit::SECOND, Range::Positive))?;
         let samples = every * rate;
@@ -194,21 +221,60 @@ impl Document {
             sigma: self.quantity(&c.sigma, unit, Range::Positive)?,
             stride: samples.round() as u64,
             windows: self.intervals(&c.windows)?,
+            detect: c.detect.as_ref().map(|detect| self.detect(detect, rate)).transpose()?,
             lever_arm: self.arm(&c.lever_arm)?,
+        })
+    }
+
+    fn detect(&self, w: &At<written::Detect>, rate: f64) -> Result<Detect, Diagnostic> {
+        let d = &w.value;
+        let window = (self.quantity(&d.window, Unit::SECOND, Range::Positive)? * rate).round();
+        if !(2.0..=1e6).contains(&window) {
+            return Err(self
+                .diagnostic(Spot::Node(d.window.node), "no window that shows a standstill")
+                .expected("two samples of the IMU at least, and a million at most")
+                .found(format!("{window} samples at {rate} Hz"))
+                .example("window: 0.5 s"));
+        }
+        Ok(Detect {
+            window: window as usize,
+            gyro: self.quantity(&d.gyro, Unit::RATE, Range::Positive)?,
+            accel: self.quantity(&d.accel, Unit::FORCE, Range::Positive)?,
+            threshold: d
+                .threshold
+                .as_ref()
+                .map_or(Ok(2.0), |q| self.quantity(q, Unit::ONE, Range::Positive))?,
+            speed: d.speed.as_ref().map(|q| self.quantity(q, SPEED, Range::Positive)).transpose()?,
         })
     }
 
     fn reference(&self, w: &At<written::Reference>) -> Result<Reference, Diagnostic> {
         let r = &w.value;
-        let (columns, signs) = self.signed(r.columns.as_ref(), &columns::TRAJECTORY)?;
+        let (mut columns, signs) = self.signed(r.columns.as_ref(), &columns::TRAJECTORY)?;
+        let mut angle = self.angle_count(&r.angle)?;
+        let mut layout = Layout::default();
+        if r.format.is_some() {
+            self.format_alone(&r.columns, &r.angle)?;
+            columns = (2..=11).map(ColumnRef::Number).collect();
+            (angle, layout) = (1f64.to_radians(), Layout { week: true, fields: Some(11) });
+        }
         let offset = r.offset.as_ref().map_or(Ok(0.0), |q| self.quantity(q, Unit::SECOND, Range::Any))?;
-        Ok(Reference {
-            file: r.file.value.clone(),
-            columns,
-            signs,
-            angle: self.angle_count(&r.angle)?,
-            offset,
-        })
+        Ok(Reference { file: r.file.value.clone(), columns, signs, layout, angle, offset })
+    }
+
+    /// A format says what columns and angles are.
+    fn format_alone(
+        &self,
+        columns: &Option<At<Vec<Title>>>,
+        angle: &Option<Quantity>,
+    ) -> Result<(), Diagnostic> {
+        let said = [("columns", columns.as_ref().map(|x| x.node)), ("angle", angle.as_ref().map(|x| x.node))];
+        match said.into_iter().find_map(|(key, node)| Some((key, node?))) {
+            None => Ok(()),
+            Some((key, node)) => Err(self
+                .diagnostic(Spot::Node(node), format!("the format says what `{key}` is"))
+                .help("take it out, or `format`")),
+        }
     }
 
     /// Columns as given, or the standard ones; a name may have a sign before it.

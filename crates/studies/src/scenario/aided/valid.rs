@@ -4,7 +4,7 @@ use schuler_imu::Spec;
 use schuler_strapdown::filter::Form;
 
 use super::super::valid::{Align, Mechanization, Start};
-use crate::log::{ColumnRef, LogSpec};
+use crate::log::{ColumnRef, Layout, LogSpec};
 
 /// A log that is navigated with measurements beside it.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,6 +59,10 @@ pub struct Measured {
     pub columns: Vec<ColumnRef>,
     /// 1 or -1 for each column.
     pub signs: Vec<f64>,
+    /// What else is known of its rows.
+    pub layout: Layout,
+    /// Columns of standard deviations, as many as [`MeasuredKind::parts`] where they are read.
+    pub sigma_columns: Vec<ColumnRef>,
     /// rad per unit of an angle.
     pub angle: f64,
     /// Standard deviation north, east, down (m, m/s), or of the one component (m, rad); from the file when absent.
@@ -95,8 +99,25 @@ pub struct Condition {
     pub stride: u64,
     /// Begin and end of the times in which it holds, s; always when absent.
     pub windows: Option<Vec<[f64; 2]>>,
+    /// How a standstill is told from the IMU, where it must show one.
+    pub detect: Option<Detect>,
     /// From the IMU to the point that does not slip, body axes, m.
     pub lever_arm: [f64; 3],
+}
+
+/// How a standstill is told from the IMU.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Detect {
+    /// Samples of the window, two at least.
+    pub window: usize,
+    /// Standard deviation of the noise of a sample of a gyro, rad/s.
+    pub gyro: f64,
+    /// Of an accelerometer, m/s².
+    pub accel: f64,
+    /// How many times this noise a standstill may have.
+    pub threshold: f64,
+    /// Speed from which on nothing is a standstill, m/s.
+    pub speed: Option<f64>,
 }
 
 /// A trajectory to compare with.
@@ -108,6 +129,8 @@ pub struct Reference {
     pub columns: Vec<ColumnRef>,
     /// 1 or -1 for each column.
     pub signs: Vec<f64>,
+    /// What else is known of its rows.
+    pub layout: Layout,
     /// rad per unit of an angle.
     pub angle: f64,
     /// What is added to its times, s.

@@ -62,6 +62,8 @@ pub struct Measurements {
 pub struct Measured {
     /// File; looked up in the data folder (`--data`, `SCHULER_DATA`), then beside the scenario.
     pub file: At<String>,
+    /// A format with a name, of a position or a height; it stands for `columns` and `angle`.
+    pub format: Option<At<AidFormat>>,
     /// Columns of time (s) and of what is measured, by name or number, `-` before a name turns the sign; those that
     /// `study: simulate` writes when absent.
     pub columns: Option<At<Vec<Title>>>,
@@ -80,6 +82,16 @@ pub struct Measured {
     pub outages: Option<At<Vec<At<[Quantity; 2]>>>>,
 }
 
+/// Formats of logs beside that of the IMU.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum AidFormat {
+    /// Text of KF-GINS. Measurements have seven columns: second of the GNSS week, latitude and longitude (deg), height (m),
+    /// standard deviations north, east, down (m). References have eleven: GNSS week, second, latitude, longitude (deg), height (m),
+    /// velocity north, east, down (m/s), roll, pitch, yaw (deg).
+    KfGins,
+}
+
 /// Something known of the vehicle without an instrument.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -90,16 +102,38 @@ pub struct Condition {
     pub every: Option<Quantity>,
     /// Times in which it holds, in the time of the IMU log; always when absent.
     pub windows: Option<At<Vec<At<[Quantity; 2]>>>>,
+    /// `zero_velocity`, `zero_rate`: it holds when the IMU shows a standstill; always when absent.
+    pub detect: Option<At<Detect>>,
     /// `non_holonomic`: from the IMU to the point that does not slip; zero when absent.
     pub lever_arm: Option<At<[Quantity; 3]>>,
 }
 
-/// A trajectory to compare with, CSV or CSV.gz.
+/// How a standstill is told from the IMU: over the window, the generalized likelihood ratio of Skog, Händel, Nilsson and
+/// Rantakokko (IEEE Trans. Biomed. Eng. 57, 2010), divided by six, its mean where the noise is as stated.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Detect {
+    /// Length of the window that ends at the sample, of two samples or more.
+    pub window: Quantity,
+    /// Standard deviation of the noise of a sample of a gyro at a standstill, engine and wind included.
+    pub gyro: Quantity,
+    /// Standard deviation of the noise of a sample of an accelerometer at a standstill.
+    pub accel: Quantity,
+    /// How many times the noise as stated a standstill may have; 2 when absent.
+    pub threshold: Option<Quantity>,
+    /// Speed of the navigator from which on nothing is a standstill: driving straight on a smooth road looks like one to an
+    /// IMU. Any speed when absent.
+    pub speed: Option<Quantity>,
+}
+
+/// A trajectory to compare with: text or a NumPy array (npy), either also gzipped.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Reference {
     /// File; looked up in the data folder (`--data`, `SCHULER_DATA`), then beside the scenario.
     pub file: At<String>,
+    /// A format with a name; it stands for `columns` and `angle`.
+    pub format: Option<At<AidFormat>>,
     /// Columns of time (s), latitude, longitude, height, velocity north, east, down, roll, pitch and yaw, `-` before a
     /// name turns the sign; those of `truth.csv` when absent.
     pub columns: Option<At<Vec<Title>>>,

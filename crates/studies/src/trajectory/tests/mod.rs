@@ -4,5 +4,6 @@ mod closed_forms;
 mod kinds;
 mod laws;
 mod navigators;
+mod rounding;
 mod routes;
 mod segments;

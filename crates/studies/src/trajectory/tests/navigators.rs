@@ -23,9 +23,15 @@ fn navigators(start: &Pva) -> [Box<dyn Mechanization>; 4] {
 
 /// Horizontal and vertical distance of each from the truth after `steps` of `dt`; `sample` gives the increments of step k,
 /// from -1 on.
-fn away(truth: &Truth, dt: f64, steps: i64, sample: impl Fn(i64) -> Increments) -> [[f64; 2]; 4] {
+fn away(
+    truth: &Truth,
+    coning: Coning,
+    dt: f64,
+    steps: i64,
+    sample: impl Fn(i64) -> Increments,
+) -> [[f64; 2]; 4] {
     let mut all = navigators(&truth.moment(0.0).pva);
-    let mut samples = Samples::new(Coning::Previous);
+    let mut samples = Samples::new(coning);
     samples.add(&sample(-1));
     for k in 0..steps {
         let motion = samples.add(&sample(k)).expect("a sample an update");
@@ -52,7 +58,7 @@ fn shaken_flight() -> Truth {
 fn flight_from_increments() {
     let truth = shaken_flight();
     let dt = 0.01;
-    let away = away(&truth, dt, 60_000, |k| truth.increments(k as f64 * dt, dt));
+    let away = away(&truth, Coning::Previous, dt, 60_000, |k| truth.increments(k as f64 * dt, dt));
     assert!(away.iter().all(|[horizontal, vertical]| *horizontal < 0.002 && *vertical < 0.002), "{away:?}");
 }
 
@@ -67,7 +73,7 @@ fn flight_from_rates() {
     };
     let samples: Vec<[Vec3<B>; 2]> = (-2..60_002).map(rates).collect();
     let increments = increments_of_rates(&samples, dt);
-    let away = away(&truth, dt, 60_000, |k| increments[(k + 2) as usize]);
+    let away = away(&truth, Coning::Previous, dt, 60_000, |k| increments[(k + 2) as usize]);
     assert!(away.iter().all(|[horizontal, vertical]| *horizontal < 0.3 && *vertical < 0.3), "{away:?}");
 }
 
@@ -80,7 +86,7 @@ fn car_on_a_figure_of_eight() {
     let truth = Truth::new(eights.expect("a drive"), Gravity::Normal);
     assert!(truth.trajectory().duration().expect("an end") > 3600.0);
     let dt = 0.005;
-    let away = away(&truth, dt, 720_000, |k| truth.increments(k as f64 * dt, dt));
+    let away = away(&truth, Coning::Previous, dt, 720_000, |k| truth.increments(k as f64 * dt, dt));
     assert!(away.iter().all(|[horizontal, _]| *horizontal < 0.01), "{away:?}");
 }
 
@@ -109,5 +115,29 @@ fn over_the_pole() {
     for nav in all {
         let apart = nav.pva().position.local_ned(end.position.as_ecef());
         assert!(apart.norm() < 1e-3, "{apart:?}");
+    }
+}
+
+/// Errors fall with the stated order as the rate doubles: the second from one sample, and from the sample before it too
+/// the fourth, until the second order of the navigator shows.
+#[test]
+fn errors_fall_with_the_stated_order() {
+    let truth = Truth::new(flight(Gravity::Normal), Gravity::Normal);
+    for (coning, orders) in [(Coning::One, 1.8..2.2), (Coning::Previous, 2.0..4.2)] {
+        let error = |rate: f64| {
+            let dt = 1.0 / rate;
+            let sample = |k: i64| truth.increments(k as f64 * dt, dt);
+            away(&truth, coning, dt, (600.0 * rate) as i64, sample).map(|[level, up]| level.hypot(up))
+        };
+        let [slow, middle, fast] = [12.5, 25.0, 50.0].map(error);
+        for nav in 0..4 {
+            for (coarse, fine) in [(slow[nav], middle[nav]), (middle[nav], fast[nav])] {
+                let order = (coarse / fine).log2();
+                assert!(
+                    orders.contains(&order),
+                    "{coning:?}, {nav}: {order} of {slow:?} {middle:?} {fast:?}"
+                );
+            }
+        }
     }
 }

@@ -1,7 +1,12 @@
 //! Closure: what `simulate` writes is navigated with the error model it was drawn from, and the errors are those that the
 //! filter claims.
 
+mod conditions;
+mod offsets;
+mod standstill;
+
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use schuler_frames::{B, Euler, Geodetic, Rot, T, Vec3, with_position_error};
 use schuler_imu::{Stream, random::Draws};
@@ -80,24 +85,38 @@ filter:
 output: { every: 1 s, formats: [csv, svg] }
 ";
 
+/// What a simulation wrote, in a folder that goes with it.
 struct Data(PathBuf);
 
 impl Data {
     /// The flight of that seed in a folder of its own.
     fn flight(name: &str, seed: u64) -> Data {
-        let folder = std::env::temp_dir().join(format!("schuler-aided-{name}-{seed}-{}", std::process::id()));
-        let scenario = load(FLIGHT, &[format!("seed={seed}")]);
+        Data::simulated(name, FLIGHT, &[&format!("seed={seed}")])
+    }
+
+    fn simulated(name: &str, text: &str, overrides: &[&str]) -> Data {
+        let overrides: Vec<String> = overrides.iter().map(|o| o.to_string()).collect();
+        // Tests side by side do not meet in the folder above it.
+        static NEXT: AtomicUsize = AtomicUsize::new(0);
+        let number = NEXT.fetch_add(1, Ordering::Relaxed);
+        let own = format!("schuler-aided-{name}-{}-{number}", std::process::id());
+        let folder = std::env::temp_dir().join(own).join("data");
+        let scenario = load(text, &overrides);
         let record = run_study(&scenario, &Context { data: None, progress: &Silent }).unwrap();
-        // There already, so that tests side by side do not meet in the folder above it.
         std::fs::create_dir_all(&folder).unwrap();
         Folder::check(&folder).and_then(|to| to.write(&record, scenario.output.formats)).unwrap();
         Data(folder)
     }
 
-    fn navigate(&self, overrides: &[&str]) -> Result<Record, Error> {
+    /// Navigates with another scenario than that of the flight.
+    fn navigate_as(&self, text: &str, overrides: &[&str]) -> Result<Record, Error> {
         let overrides: Vec<String> = overrides.iter().map(|o| o.to_string()).collect();
-        let scenario = Scenario::load(Path::new("navigate.yaml"), NAVIGATE, &overrides)?;
+        let scenario = Scenario::load(Path::new("navigate.yaml"), text, &overrides)?;
         run_study(&scenario, &Context { data: Some(self.0.clone()), progress: &Silent })
+    }
+
+    fn navigate(&self, overrides: &[&str]) -> Result<Record, Error> {
+        self.navigate_as(NAVIGATE, overrides)
     }
 
     /// Navigates from a start with errors drawn from the filter's own standard deviations.
@@ -127,7 +146,7 @@ impl Data {
 
 impl Drop for Data {
     fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
+        let _ = std::fs::remove_dir_all(self.0.parent().unwrap());
     }
 }
 
@@ -286,6 +305,26 @@ fn what_does_not_fit_is_refused() {
         (
             "mechanization={ frame: t, vertical: { damped: { order: 3, tau: 100 s } }, gravity: normal }",
             "damped",
+        ),
+        (
+            "start={ position: { lat: 48 deg, lon: 11 deg, h: 800 m } }",
+            "filter: the attitude at the start is not known",
+        ),
+        (
+            "filter.measurements.zero_rate={ sigma: 1 deg/s, detect: { window: 5 ms, gyro: 1 deg/s, accel: 1 m/s^2 } }",
+            "no window that shows a standstill",
+        ),
+        (
+            "filter.measurements.non_holonomic={ sigma: 1 m/s, detect: { window: 1 s, gyro: 1 deg/s, accel: 1 m/s^2 } }",
+            "`non_holonomic` holds at a standstill and on the way",
+        ),
+        (
+            "filter.measurements={ velocity: { file: velocity.csv, format: kf_gins } }",
+            "this format has no velocity",
+        ),
+        (
+            "filter.measurements.position={ file: position.csv, format: kf_gins, angle: 1 deg }",
+            "the format says what `angle` is",
         ),
     ] {
         let text = message(&[override_]);
