@@ -5,23 +5,29 @@
 
 mod bands;
 mod figures;
+mod gather;
 mod prediction;
+mod replay;
 mod report;
 mod runs;
 mod scene;
+mod shard;
 mod sketch;
+mod state;
 mod statistics;
+mod store;
 #[cfg(test)]
 mod tests;
 
-use crate::{Context, Error, Scenario, record::Record, scenario::MonteCarlo};
-use prediction::prediction;
-use runs::{runs, units};
-use scene::Scene;
-use statistics::Statistics;
+use std::path::{Path, PathBuf};
 
-/// Runs that are made, kept and gathered together.
-const CHUNK: u64 = 128;
+use crate::{Context, Error, Scenario, record::Record, scenario::MonteCarlo};
+use gather::{Gathered, each_chunk};
+use scene::Scene;
+use state::{Identity, State};
+
+pub use replay::replay;
+pub use shard::{Origin, Part, merge, part};
 
 /// Runs a Monte Carlo study in memory.
 ///
@@ -29,30 +35,57 @@ const CHUNK: u64 = 128;
 /// A run without numbers; an IMU that refuses its list.
 pub fn run(scenario: &Scenario, study: &MonteCarlo, context: &Context) -> Result<Record, Error> {
     let scene = Scene::new(scenario, study);
-    let predicted = prediction(&scene);
-    let rows = scene.rows.len();
-    let mut statistics = Statistics::new(rows, predicted.as_deref().ok(), &study.thresholds);
-    context.progress.begin("runs", units(&scene) * study.runs);
-    for first in (0..study.runs).step_by(CHUNK as usize) {
-        let chunk = runs(&scene, first, study.runs.min(first + CHUNK), context.progress)?;
-        chunk.runs(rows).for_each(|run| statistics.add(run));
-    }
-    Ok(record(scenario, &scene, &statistics, &predicted))
+    gathered(scenario, &scene, None, context)
 }
 
-/// The record of all runs.
-fn record(
+/// Runs a Monte Carlo study whose finished runs are kept in the folder `kept`: killed at any moment and started again, it goes on
+/// and ends with the same record. Once that is written, [`discard`] takes the folder away.
+///
+/// # Errors
+/// As [`run`]; `kept` cannot be written, or holds something else or runs of another scenario, seed or version.
+pub fn run_kept(
+    scenario: &Scenario,
+    study: &MonteCarlo,
+    context: &Context,
+    kept: &Path,
+) -> Result<Record, Error> {
+    let scene = Scene::new(scenario, study);
+    let state = open(scenario, &scene, kept)?;
+    gathered(scenario, &scene, Some(&state), context)
+}
+
+fn gathered(
     scenario: &Scenario,
     scene: &Scene,
-    statistics: &Statistics,
-    predicted: &Result<Vec<prediction::Predicted>, String>,
-) -> Record {
-    let rows = predicted.as_deref().ok();
-    let mut record = Record::new(scenario, report::summary(statistics, rows));
-    record.tables = report::tables(scene, statistics, rows);
-    record.notes = report::notes(scene, statistics, predicted);
-    if scenario.output.formats.png || scenario.output.formats.svg {
-        record.figures = figures::figures(&scenario.title, scene, statistics, rows);
-    }
-    record
+    state: Option<&State>,
+    context: &Context,
+) -> Result<Record, Error> {
+    let mut gathered = Gathered::new(scene);
+    each_chunk(scene, 0, scene.study.runs, state, context.progress, |chunk| {
+        gathered.add(chunk);
+        Ok(!gathered.done)
+    })?;
+    let mut record = gathered.record(scenario);
+    record.judge(scenario);
+    Ok(record)
+}
+
+fn open(scenario: &Scenario, scene: &Scene, kept: &Path) -> Result<State, Error> {
+    let times = scene.rows.iter().map(|&k| scene.time(k)).collect();
+    State::open(kept, &Identity::of(scenario, scene), times)
+}
+
+/// The folder in which finished runs are kept until the results are in `out`: beside it, `out.partial`.
+pub fn kept(out: &Path) -> PathBuf {
+    let mut name = out.file_name().unwrap_or_default().to_os_string();
+    name.push(".partial");
+    out.with_file_name(name)
+}
+
+/// Takes a folder of kept runs away.
+///
+/// # Errors
+/// It cannot be removed.
+pub fn discard(kept: &Path) -> Result<(), Error> {
+    std::fs::remove_dir_all(kept).map_err(|source| Error::Write { path: kept.into(), source })
 }

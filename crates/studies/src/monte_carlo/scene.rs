@@ -34,15 +34,15 @@ impl<'a> Scene<'a> {
     pub fn new(scenario: &Scenario, study: &'a MonteCarlo) -> Scene<'a> {
         let stride =
             scenario.output.every.map_or(1, |every| (every * study.imu.rate).round().max(1.0) as u64);
+        Scene::with_stride(study, scenario.seed, stride)
+    }
+
+    /// The same with a row every `stride` samples and at the end.
+    pub fn with_stride(study: &'a MonteCarlo, seed: u64, stride: u64) -> Scene<'a> {
         let mut rows: Vec<u64> = (0..=study.samples / stride).map(|k| k * stride).collect();
         if !study.samples.is_multiple_of(stride) {
             rows.push(study.samples);
         }
-        Scene::with_rows(study, scenario.seed, rows)
-    }
-
-    /// The same with other rows.
-    pub fn with_rows(study: &'a MonteCarlo, seed: u64, rows: Vec<u64>) -> Scene<'a> {
         let dt = 1.0 / study.imu.rate;
         let gravity = study.mechanization.gravity;
         let trajectory = study.motion.trajectory(&study.start, gravity, study.samples, dt);

@@ -120,6 +120,43 @@ fn runs_do_not_depend_on_their_chunk() {
     }
 }
 
+/// A run that is replayed by its number has the errors that it had among all.
+#[test]
+fn a_replay_is_the_run_itself() {
+    let text = format!(
+        "{FLIGHT}{NOISES}monte_carlo: {{ runs: 20, {SIGMAS} }}\nduration: 130 s\noutput: {{ every: 10 s }}\n"
+    );
+    let scenario = scenario(&text);
+    let scene = Scene::new(&scenario, study(&scenario));
+    let all = runs(&scene, 0, 20, &Silent).unwrap();
+    let record = super::replay(&scenario, scene.study, 17, &crate::Context::silent()).unwrap();
+    let (table, rows) = (&record.tables[0], scene.rows.len());
+    assert_eq!(table.len(), 2601);
+    for (row, &sample) in scene.rows.iter().enumerate() {
+        for (k, name) in crate::record::columns::ERRORS[3..].iter().enumerate() {
+            let found = table.numbers(name).unwrap()[sample as usize];
+            assert_eq!(found.to_bits(), all.errors[17 * rows + row][k].to_bits(), "{name}, row {row}");
+        }
+    }
+    assert!(super::replay(&scenario, scene.study, 20, &crate::Context::silent()).is_err());
+}
+
+/// Runs end at the first milestone at which the interval is narrow enough, and not before.
+#[test]
+fn runs_end_when_a_figure_is_known() {
+    // Half the 99 % interval of a standard deviation is 2.58/√(2 n): below 12 % from 230 runs on, so at 256.
+    let until = "until: { quantity: horizontal_m, way: sd, at: 60 s, relative: 12 % }";
+    let one = until.replace("horizontal_m", "dn_m");
+    // Two variances alike count twice: from 115 runs on, so at 128.
+    for (until, expected) in [(until, "after 128 of"), (&one, "after 256 of")] {
+        let text = format!(
+            "{LEVEL}{NOISES}monte_carlo: {{ runs: 600, {until} }}\nduration: 60 s\noutput: {{ every: 60 s }}\n"
+        );
+        let record = run(&scenario(&text), &crate::Context::silent()).unwrap();
+        assert!(record.notes.iter().any(|note| note.contains(expected)), "{:?}", record.notes);
+    }
+}
+
 fn bytes(record: &Record) -> Vec<u8> {
     let mut all = Vec::new();
     record.tables.iter().for_each(|table| table.write_csv(&mut all).unwrap());
