@@ -25,7 +25,7 @@ fn main() {
     divan::main();
 }
 
-fn scenario(motion: &str) -> Scenario {
+fn scenario(motion: &str, runs: u64) -> Scenario {
     let text = format!(
         "
 schuler: 1
@@ -38,7 +38,7 @@ imu:
   rate: {RATE} Hz
   gyro: [bias: {{ constant: {{ sigma: 1 deg/h }} }}, bias: {{ white: {{ density: 0.1 deg/sqrt(h) }} }}, bias: {{ random_walk: {{ density: 1 deg/h/sqrt(h) }} }}, bias: {{ gauss_markov: {{ sigma: 1 deg/h, tau: 100 s }} }}, scale_factor: {{ constant: {{ sigma: 300 ppm }} }}, misalignment: {{ constant: {{ sigma: 1 mrad }} }}]
   accel: [bias: {{ constant: {{ sigma: 1 mg }} }}, bias: {{ white: {{ density: 100 ug/sqrt(Hz) }} }}, bias: {{ random_walk: {{ density: 100 ug/sqrt(h) }} }}, bias: {{ gauss_markov: {{ sigma: 100 ug, tau: 100 s }} }}, scale_factor: {{ constant: {{ sigma: 300 ppm }} }}, misalignment: {{ constant: {{ sigma: 1 mrad }} }}]
-monte_carlo: {{ runs: {RUNS} }}
+monte_carlo: {{ runs: {runs} }}
 mechanization: {{ frame: t, vertical: held, gravity: somigliana }}
 output: {{ every: 10 s, formats: [csv] }}
 ",
@@ -47,25 +47,26 @@ output: {{ every: 10 s, formats: [csv] }}
     Scenario::load("bench.yaml", &text, &[]).expect("a scenario")
 }
 
-fn whole(bencher: Bencher, scenario: &Scenario, threads: usize) {
+fn whole(bencher: Bencher, motion: &str, threads: usize) {
+    let scenario = scenario(motion, RUNS);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
     let Study::MonteCarlo(study) = &scenario.study else { unreachable!("a Monte Carlo") };
     bencher.counter(ItemsCount::new(RUNS * SAMPLES)).bench_local(|| {
-        pool.install(|| monte_carlo::run(scenario, study, &Context::silent()).expect("runs"))
+        pool.install(|| monte_carlo::run(&scenario, study, &Context::silent()).expect("runs"))
     });
 }
 
 /// At rest.
 #[divan::bench(args = [1, 2], sample_count = 10)]
 fn runs(bencher: Bencher, threads: usize) {
-    whole(bencher, &scenario("static"), threads);
+    whole(bencher, "static", threads);
 }
 
 /// Along a flight, whose truth is calculated once for all runs and whose prediction sample by sample.
 #[divan::bench(args = [1, 2], sample_count = 10)]
 fn runs_in_flight(bencher: Bencher, threads: usize) {
     let motion = "{ segments: [accelerate: { to: 80 m/s, duration: 20 s }, turn: { angle: 90 deg, rate: 3 deg/s, ramp: 2 s }, straight: { duration: 100 s }] }";
-    whole(bencher, &scenario(motion), threads);
+    whole(bencher, motion, threads);
 }
 
 /// A process with one state: transition, mean of the state, and what its normals add to mean and state.

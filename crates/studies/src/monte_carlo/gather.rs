@@ -1,5 +1,7 @@
 //! From runs, made or kept, to their statistics.
 
+use std::time::{Duration, Instant};
+
 use super::{
     prediction::{Predicted, prediction},
     runs::{Chunk, runs, units},
@@ -9,9 +11,6 @@ use super::{
     store::Digest,
 };
 use crate::{Error, Progress, Record, Scenario, scenario::Until};
-
-/// Runs that are kept together, counted from run 0 on.
-pub const CHUNK: u64 = 64;
 
 /// Everything gathered so far, run by run in the order of their numbers.
 pub struct Gathered<'a> {
@@ -92,12 +91,7 @@ fn is_milestone(runs: u64) -> bool {
     runs >= 128 && (runs.is_power_of_two() || (runs.is_multiple_of(3) && (runs / 3).is_power_of_two()))
 }
 
-/// End of the chunk that begins with run `first`, no later than `last`.
-fn chunk_end(first: u64, last: u64) -> u64 {
-    last.min((first / CHUNK + 1) * CHUNK)
-}
-
-/// The runs `first..last` chunk by chunk in their order: those that `state` has from there, the others made and kept there. Ends
+/// The runs `first..last` in their order, some at a time: those that `state` has from there, the others made and kept there. Ends
 /// early when `take` wants no more.
 pub fn each_chunk(
     scene: &Scene,
@@ -107,42 +101,82 @@ pub fn each_chunk(
     progress: &dyn Progress,
     mut take: impl FnMut(&Chunk) -> Result<bool, Error>,
 ) -> Result<(), Error> {
-    let has = |at: u64| state.is_some_and(|state| state.has(at, chunk_end(at, last)));
-    let chunks =
-        || std::iter::successors(Some(first), |at| Some(chunk_end(*at, last))).take_while(|at| *at < last);
-    let missing: u64 = chunks().filter(|at| !has(*at)).map(|at| chunk_end(at, last) - at).sum();
+    let known = state.map_or(Ok(Vec::new()), State::ranges)?;
+    let kept = |at: u64| known.iter().find(|range| range.start == at && range.end <= last).cloned();
+    let next =
+        |at: u64| known.iter().map(|range| range.start).filter(|start| *start > at).min().unwrap_or(last);
+    let (mut at, mut missing) = (first, 0);
+    while at < last {
+        let end = kept(at).map_or(next(at).min(last), |range| range.end);
+        missing += if kept(at).is_some() { 0 } else { end - at };
+        at = end;
+    }
     progress.begin("runs", units(scene) * missing);
     // Together as many as keep all threads busy; the motion is calculated once for them.
-    let together = 2 * CHUNK.max(16 * rayon::current_num_threads() as u64);
-    let rows = scene.rows.len();
-    let mut at = first;
+    let together = 128.max(32 * rayon::current_num_threads() as u64);
+    let mut keeper = Keeper::new(state, scene.rows.len());
+    at = first;
     while at < last {
-        let end = chunk_end(at, last);
-        if let Some(chunk) = state.and_then(|state| state.load(at, end)) {
-            if !take(&chunk)? {
-                return Ok(());
+        let there = kept(at).and_then(|range| state?.load(&range));
+        let chunk = match there {
+            Some(chunk) => {
+                keeper.keep()?;
+                chunk
             }
-            at = end;
-            continue;
-        }
-        let mut stop = end;
-        while stop < last && stop - at < together && !has(stop) {
-            stop = chunk_end(stop, last);
-        }
-        let Chunk { errors, .. } = runs(scene, at, stop, progress)?;
-        let mut rest = &errors[..];
-        while at < stop {
-            let end = chunk_end(at, last);
-            let (now, later) = rest.split_at((end - at) as usize * rows);
-            let chunk = Chunk { first: at, errors: now.to_vec() };
-            if let Some(state) = state {
-                state.save(&chunk)?;
+            None => {
+                let made = runs(scene, at, last.min(at + together).min(next(at)), progress)?;
+                keeper.take(&made)?;
+                made
             }
-            if !take(&chunk)? {
-                return Ok(());
-            }
-            (at, rest) = (end, later);
+        };
+        at += (chunk.errors.len() / scene.rows.len()) as u64;
+        if !take(&chunk)? {
+            return Ok(());
         }
     }
-    Ok(())
+    keeper.keep()
+}
+
+/// Runs that are made and not yet kept. Waiting for the disk shall not cost more than a fifth of the time.
+struct Keeper<'a> {
+    state: Option<&'a State>,
+    rows: usize,
+    pending: Option<Chunk>,
+    since: Instant,
+    cost: Duration,
+}
+
+impl<'a> Keeper<'a> {
+    /// Errors that are in memory at most, before more come.
+    const MOST: usize = 1 << 16;
+    /// Shortest time between files.
+    const SHORTEST: Duration = Duration::from_millis(100);
+
+    fn new(state: Option<&'a State>, rows: usize) -> Self {
+        Keeper { state, rows, pending: None, since: Instant::now(), cost: Duration::ZERO }
+    }
+
+    /// Takes the next runs, and keeps them when it is time.
+    fn take(&mut self, chunk: &Chunk) -> Result<(), Error> {
+        if self.state.is_none() {
+            return Ok(());
+        }
+        match &mut self.pending {
+            None => self.pending = Some(chunk.clone()),
+            Some(pending) => pending.errors.extend_from_slice(&chunk.errors),
+        }
+        let many = self.pending.as_ref().is_some_and(|pending| pending.errors.len() > Self::MOST);
+        if many || self.since.elapsed() > Self::SHORTEST.max(4 * self.cost) { self.keep() } else { Ok(()) }
+    }
+
+    /// Keeps what there is.
+    fn keep(&mut self) -> Result<(), Error> {
+        if let (Some(state), Some(chunk)) = (self.state, self.pending.take()) {
+            let begin = Instant::now();
+            state.save(&chunk, self.rows)?;
+            self.cost = begin.elapsed();
+            self.since = Instant::now();
+        }
+        Ok(())
+    }
 }

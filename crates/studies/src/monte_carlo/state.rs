@@ -3,6 +3,7 @@
 use std::{
     fs::{self, File},
     io,
+    ops::Range,
     path::{Path, PathBuf},
 };
 
@@ -59,7 +60,7 @@ impl Identity {
     }
 }
 
-/// A folder of finished chunks, each in a file of its own.
+/// A folder of finished runs, consecutive ones in a file.
 ///
 /// A file takes its name when it is whole and on the disk: whenever the program ends, what is there can be used. A file that
 /// is damaged all the same does not have the digest that stands in it; its runs are made again.
@@ -110,29 +111,43 @@ impl State {
         }
     }
 
-    /// Whether the runs `first..last` are there.
-    pub fn has(&self, first: u64, last: u64) -> bool {
-        self.path(first, last).is_file()
+    /// Which runs are there: a range for each file.
+    pub fn ranges(&self) -> Result<Vec<Range<u64>>, Error> {
+        let failed = |source| Error::Read { path: self.folder.clone(), source };
+        let mut ranges = Vec::new();
+        for entry in fs::read_dir(&self.folder).map_err(failed)? {
+            let name = entry.map_err(failed)?.file_name();
+            let numbers = name
+                .to_str()
+                .and_then(|name| name.strip_prefix(RUNS)?.strip_suffix(PARQUET)?.split_once('-'));
+            if let Some((Ok(first), Ok(last))) = numbers.map(|(a, b)| (a.parse(), b.parse()))
+                && first < last
+            {
+                ranges.push(first..last);
+            }
+        }
+        Ok(ranges)
     }
 
-    /// The runs `first..last`, if they are there and undamaged.
-    pub fn load(&self, first: u64, last: u64) -> Option<Chunk> {
+    /// The runs of a file, if they are undamaged.
+    pub fn load(&self, range: &Range<u64>) -> Option<Chunk> {
         let rows = self.times.len();
-        let mut reader = Reader::open(&self.path(first, last), rows).ok()?;
+        let mut reader = Reader::open(&self.path(range), rows).ok()?;
         let mut chunk = reader.next()?.ok()?;
         for more in &mut reader {
             chunk.errors.extend(more.ok()?.errors);
         }
         let mut digest = Digest::default();
         digest.add_chunk(&chunk, rows);
-        let whole = chunk.first == first && chunk.errors.len() as u64 == (last - first) * rows as u64;
+        let all = (range.end - range.start) * rows as u64;
+        let whole = chunk.first == range.start && chunk.errors.len() as u64 == all;
         (whole && reader.digest()? == digest.hex()).then_some(chunk)
     }
 
-    /// Keeps the runs of a chunk.
-    pub fn save(&self, chunk: &Chunk) -> Result<(), Error> {
-        let last = chunk.first + (chunk.errors.len() / self.times.len()) as u64;
-        let (path, part) = (self.path(chunk.first, last), self.folder.join(format!("{}{PART}", chunk.first)));
+    /// Keeps runs of `rows` rows each.
+    pub fn save(&self, chunk: &Chunk, rows: usize) -> Result<(), Error> {
+        let range = chunk.first..chunk.first + (chunk.errors.len() / rows) as u64;
+        let (path, part) = (self.path(&range), self.folder.join(format!("{}{PART}", chunk.first)));
         let result = Writer::create(&part, &self.times).and_then(|mut writer| {
             writer.add(chunk)?;
             writer.finish()?;
@@ -144,11 +159,14 @@ impl State {
         result
     }
 
-    fn path(&self, first: u64, last: u64) -> PathBuf {
-        self.folder.join(format!("runs-{first:010}-{last:010}.parquet"))
+    fn path(&self, range: &Range<u64>) -> PathBuf {
+        self.folder.join(format!("{RUNS}{:010}-{:010}{PARQUET}", range.start, range.end))
     }
 }
 
+/// Begin and end of the name of a file of runs.
+const RUNS: &str = "runs-";
+const PARQUET: &str = ".parquet";
 /// End of the name of a file that is not whole yet.
 const PART: &str = ".part";
 
