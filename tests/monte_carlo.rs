@@ -136,6 +136,12 @@ fn merged_parts_are_one_process() {
     for k in 1..=3 {
         succeeds(&place, &["run", "a.yaml", "--shard", &format!("{k}/3"), "--out", &format!("p{k}")]);
     }
+    // A part that is there is not made again.
+    let written =
+        |part: &str| fs::metadata(place.0.join(part).join("runs.parquet")).and_then(|m| m.modified());
+    let before = written("p2").expect("a time");
+    succeeds(&place, &["run", "a.yaml", "--shard", "2/3", "--out", "p2"]);
+    assert_eq!(before, written("p2").expect("a time"));
     for (k, order) in [["p1", "p2", "p3"], ["p3", "p1", "p2"], ["p2", "p3", "p1"]].iter().enumerate() {
         let out = format!("merged-{k}");
         succeeds(&place, &["merge", order[0], order[1], order[2], "--out", &out]);

@@ -82,10 +82,15 @@ pub fn kept(out: &Path) -> PathBuf {
     out.with_file_name(name)
 }
 
-/// Takes a folder of kept runs away.
+/// Takes a folder of kept runs away, if there is one.
 ///
 /// # Errors
 /// It cannot be removed.
 pub fn discard(kept: &Path) -> Result<(), Error> {
-    std::fs::remove_dir_all(kept).map_err(|source| Error::Write { path: kept.into(), source })
+    match std::fs::remove_dir_all(kept) {
+        Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
+            Err(Error::Write { path: kept.into(), source })
+        }
+        _ => Ok(()),
+    }
 }

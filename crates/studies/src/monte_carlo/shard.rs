@@ -117,7 +117,7 @@ impl Part {
 }
 
 /// Makes the runs of a part and leaves them in `folder` as `runs.parquet` with a `manifest.json`. Finished runs are kept in
-/// `kept` on the way, as [`super::run_kept`] does. Gives the digest of the runs.
+/// `kept` on the way, as [`super::run_kept`] does; a part that is there whole is left as it is. Gives the digest of the runs.
 ///
 /// # Errors
 /// As [`super::run_kept`]; the study has no such runs.
@@ -138,6 +138,14 @@ pub fn part(
         return Err(fault.into());
     }
     let scene = Scene::new(scenario, study);
+    // A job that is submitted again with all others has nothing to do where it is done.
+    if let Ok(there) = manifest(folder.path())
+        && there.identity == Identity::of(scenario, &scene)
+        && (there.runs, &there.origin) == ([runs.start, runs.end], origin)
+        && read(folder.path(), &there, |_| {}).is_ok()
+    {
+        return Ok(there.digest);
+    }
     let state = open(scenario, &scene, kept)?;
     // First all of them are made, then they become one file: nothing but whole results is ever seen.
     each_chunk(&scene, runs.start, runs.end, Some(&state), context.progress, |_| Ok(true))?;

@@ -120,6 +120,55 @@ fn runs_do_not_depend_on_their_chunk() {
     }
 }
 
+/// What cannot be is told with its place.
+#[test]
+fn scenarios_that_make_no_sense_are_told() {
+    let tail = |block: &str, every: &str| {
+        format!("{LEVEL}{NOISES}monte_carlo: {block}\nduration: 60 s\noutput: {{ every: {every} }}\n")
+    };
+    let fault = |block: &str, every: &str| {
+        let text = format!(
+            "schuler: 1\nstudy: monte_carlo\ntitle: T\nstart: {{ position: {{ lat: 45 deg, lon: 0 deg, h: 0 m }} }}\n{}",
+            tail(block, every)
+        );
+        Scenario::load("test.yaml", &text, &[]).unwrap_err().to_string()
+    };
+    for (block, every, message) in [
+        ("{ runs: 1 }", "60 s", "monte_carlo.runs: no such number of runs"),
+        ("{ runs: 10 }", "50 ms", "output.every: too many rows"),
+        ("{ runs: 10, initial_sigmas: { heading: -1 deg } }", "60 s", "must not be negative"),
+        (
+            "{ runs: 10, thresholds: [{ name: a, quantity: horizontl_m, limit: 1 m }] }",
+            "60 s",
+            "did you mean `horizontal_m`?",
+        ),
+        ("{ runs: 10, thresholds: [{ name: a, quantity: dn_m, limit: 1 deg }] }", "60 s", "wrong dimension"),
+        (
+            "{ runs: 10, thresholds: [{ name: a, quantity: dn_m, limit: 1 m }, { name: a, quantity: de_m, limit: 1 m }] }",
+            "60 s",
+            "two thresholds of one name",
+        ),
+        (
+            "{ runs: 10, until: { quantity: dn_m, way: mean, at: 60 s, relative: 5 % } }",
+            "60 s",
+            "unknown way `mean`",
+        ),
+        (
+            "{ runs: 10, until: { quantity: dn_m, way: sd, at: 61 s, relative: 5 % } }",
+            "10 s",
+            "no row at this time",
+        ),
+        (
+            "{ runs: 10, until: { quantity: dn_m, way: sd, at: 60 s, relative: 0 % } }",
+            "10 s",
+            "more than zero",
+        ),
+    ] {
+        let found = fault(block, every);
+        assert!(found.contains(message), "{block}: {found}");
+    }
+}
+
 /// A run that is replayed by its number has the errors that it had among all.
 #[test]
 fn a_replay_is_the_run_itself() {
