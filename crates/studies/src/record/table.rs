@@ -277,8 +277,9 @@ pub mod columns {
     /// `windows.csv` of an alignment of a log: the attitude at the end of each window.
     pub const WINDOWS: [&str; 5] = ["t_s", "source", "roll_rad", "pitch_rad", "yaw_rad"];
     /// `budget.csv`: standard deviations of the nine navigation errors; the root of the sum of the horizontal variances, the
-    /// radii that hold 50 % and 95 % of the horizontal position errors, and the share of the horizontal variance.
-    pub const BUDGET: [&str; 16] = [
+    /// radii that hold 50 % and 95 % of the horizontal position errors and of the errors in space, and the shares of the
+    /// horizontal variance and of the heading's.
+    pub const BUDGET: [&str; 19] = [
         "t_s",
         "source",
         "way",
@@ -294,12 +295,26 @@ pub mod columns {
         "horizontal_m",
         "cep_m",
         "r95_m",
+        "sep_m",
+        "spherical_r95_m",
         "share_ratio",
+        "heading_share_ratio",
     ];
     /// `requirement.csv`: the radius of the required probability, of a source alone and of all; its derivative by the relative
-    /// size of the source and that over the radius; and the factor by which the source may grow.
-    pub const REQUIREMENT: [&str; 6] =
-        ["t_s", "source", "radius_m", "derivative_m", "part_ratio", "may_grow_ratio"];
+    /// size of the source and that over the radius; the factor by which the source may grow; and which number of the scenario
+    /// that is, its SI unit, its value, and the value with which the requirement is just met.
+    pub const REQUIREMENT: [&str; 10] = [
+        "t_s",
+        "source",
+        "radius_m",
+        "derivative_m",
+        "part_ratio",
+        "may_grow_ratio",
+        "parameter",
+        "unit",
+        "value",
+        "limit",
+    ];
     /// `sigmas.csv` of a navigation with a filter: its own standard deviations of position, velocity and attitude.
     pub const SIGMAS: [&str; 10] = [
         "t_s",

@@ -72,7 +72,7 @@ impl Document {
             (node(&w.motion), &[Imu, Drift, Simulate, Align, Budget]),
             (node(&w.imu), &[Imu, Drift, Simulate, Align, Budget]),
             (node(&w.gravity), &[Simulate]),
-            (node(&w.aiding), &[Simulate]),
+            (node(&w.aiding), &[Simulate, Budget]),
             (node(&w.initial_errors), &[Drift]),
             (node(&w.mechanization), &[Drift, Navigate, Align, Budget]),
             (node(&w.log), &[Navigate, Allan, Align]),

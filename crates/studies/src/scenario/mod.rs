@@ -35,7 +35,7 @@ pub use aided::valid::{Aided, Condition, ConditionKind, Measured, MeasuredKind, 
 pub use alignment::valid::{
     AlignStudy, Coarse, FilterSettings, Knock, Method, MethodKind, Origin, Strategy, StrategyKind, Velocity,
 };
-pub use budget::valid::{Budget, Requirement};
+pub use budget::valid::{Budget, BudgetFilter, Requirement};
 pub use schema::json_schema;
 pub use sources::process_example;
 pub use valid::{

@@ -38,11 +38,15 @@ impl<const N: usize> ClosedLoop<N> {
         if let Some(p) = aided.gate {
             filter.gate = Gate::vector(p);
         }
-        let gravity = aided.mechanization.gravity;
+        Ok(ClosedLoop::with(filter, pva, aided.mechanization.gravity, vertical))
+    }
+
+    /// Starts at `pva` with a filter at its start.
+    pub fn with(filter: Filter<N>, pva: &Pva, gravity: Gravity, vertical: Vertical) -> Self {
         let accumulator = Accumulator::new(filter.model(), ErrorDynamics { gravity, vertical }, pva);
         let navigator = LocalLevel::new(pva, gravity, vertical);
         let seen = (Truth::rates([0.0; 3], [0.0; 3]), 1.0);
-        Ok(ClosedLoop { filter, navigator, accumulator, gravity, vertical, seen })
+        ClosedLoop { filter, navigator, accumulator, gravity, vertical, seen }
     }
 
     /// Goes on by the increments measured over `dt` (s).
