@@ -44,7 +44,11 @@ fn every_config_runs_and_its_expect_holds() {
                 Origin::Log { log, .. } => Some(&log.file),
                 Origin::Simulated { .. } => None,
             },
-            Study::Imu(_) | Study::Drift(_) | Study::Simulate(_) | Study::Budget(_) => None,
+            Study::Imu(_)
+            | Study::Drift(_)
+            | Study::Simulate(_)
+            | Study::Budget(_)
+            | Study::MonteCarlo(_) => None,
         };
         if data.is_none() && log.is_some_and(|log| !file.with_file_name(log).is_file()) {
             recorded::skipped(&name.to_string());

@@ -3,6 +3,7 @@
 mod allan;
 mod cli;
 mod configs;
+mod monte_carlo;
 mod recorded;
 mod schema;
 mod tables;

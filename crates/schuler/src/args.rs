@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args as ClapArgs, Parser, Subcommand};
+use schuler_studies::monte_carlo::Part;
 
 /// Strapdown-navigation error propagation: IMU error sources, mechanization, drift, alignment.
 #[derive(Debug, Parser)]
@@ -20,6 +21,10 @@ pub enum Command {
     /// Run scenarios; write tables, figures and a summary of each into a folder. `study:` in a scenario says what is done:
     /// `simulate` makes logs of a motion, `navigate` follows logs.
     Run(RunArgs),
+    /// Merge parts of a Monte Carlo that were run anywhere, in any order, into the result of one process.
+    Merge(MergeArgs),
+    /// Print a job script that runs a Monte Carlo in parts and merges them.
+    Plan(PlanArgs),
     /// Allan deviations of a recorded log at rest, and the error model that they show.
     Allan(AllanArgs),
     /// Read scenarios and say whether they are valid; nothing is run or written.
@@ -66,9 +71,56 @@ pub struct RunArgs {
     /// Folder of recorded logs.
     #[arg(long, value_name = "DIR", env = "SCHULER_DATA")]
     pub data: Option<PathBuf>,
+    /// Of a Monte Carlo only the runs from A to the one before B, as a part to be merged.
+    #[arg(long, value_name = "A..B", value_parser = Part::parse_runs, conflicts_with_all = ["shard", "run"])]
+    pub runs: Option<Part>,
+    /// Of a Monte Carlo only part K of N, from 1 on, to be merged.
+    #[arg(long, value_name = "K/N", value_parser = Part::parse_shard, conflicts_with = "run")]
+    pub shard: Option<Part>,
+    /// Of a Monte Carlo only run N, from 0 on, with its errors sample by sample.
+    #[arg(long, value_name = "N")]
+    pub run: Option<u64>,
     /// Print nothing but errors.
     #[arg(long)]
     pub quiet: bool,
+}
+
+/// Arguments of `merge`.
+#[derive(Debug, ClapArgs)]
+pub struct MergeArgs {
+    /// Folders of all parts.
+    #[arg(required = true, value_name = "DIR")]
+    pub parts: Vec<PathBuf>,
+    /// Folder of the results; out/<name of the scenario> when absent.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Print nothing but errors.
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// Arguments of `plan`.
+#[derive(Debug, ClapArgs)]
+#[command(group = clap::ArgGroup::new("engine").required(true))]
+pub struct PlanArgs {
+    /// Scenario file (YAML).
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// A Slurm job array of so many parts.
+    #[arg(long, value_name = "N", group = "engine")]
+    pub slurm: Option<u64>,
+    /// A script for GNU parallel with so many parts.
+    #[arg(long, value_name = "N", group = "engine")]
+    pub gnu_parallel: Option<u64>,
+    /// Change a value before the scenario is checked; repeatable.
+    #[arg(long, value_name = "KEY.PATH=VALUE")]
+    pub set: Vec<String>,
+    /// Master seed of every random draw; the same as --set seed=N.
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+    /// Folder of the results; out/<name of the scenario> when absent. Parts go into a folder beside it.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
 }
 
 /// Arguments of `allan`.
@@ -116,6 +168,17 @@ pub struct AllanArgs {
 impl ScenarioArgs {
     /// Every change of the document, in order.
     pub fn overrides(&self) -> Vec<String> {
-        self.set.iter().cloned().chain(self.seed.map(|seed| format!("seed={seed}"))).collect()
+        overrides(&self.set, self.seed)
     }
+}
+
+impl PlanArgs {
+    /// Every change of the document, in order.
+    pub fn overrides(&self) -> Vec<String> {
+        overrides(&self.set, self.seed)
+    }
+}
+
+fn overrides(set: &[String], seed: Option<u64>) -> Vec<String> {
+    set.iter().cloned().chain(seed.map(|seed| format!("seed={seed}"))).collect()
 }

@@ -2,6 +2,7 @@
 
 mod allan;
 mod args;
+mod monte_carlo;
 mod progress;
 mod report;
 mod run;
@@ -36,6 +37,8 @@ fn main() -> ExitCode {
     };
     let end = match args.command {
         Command::Run(args) => run::run(&args),
+        Command::Merge(args) => monte_carlo::merge(&args),
+        Command::Plan(args) => monte_carlo::plan(&args),
         Command::Allan(args) => allan::allan(&args),
         Command::Check(args) => run::check(&args),
         Command::Schema => print(&schuler_studies::scenario::json_schema()),

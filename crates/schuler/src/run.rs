@@ -5,11 +5,14 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use schuler_studies::{Context, Diagnostic, Error, Record, Scenario, record::Folder, run as run_study};
+use schuler_studies::{
+    Context, Diagnostic, Error, Record, Scenario, record::Folder, run as run_study, scenario::Study,
+};
 
 use crate::{
     End,
     args::{RunArgs, ScenarioArgs},
+    monte_carlo::{self, Only},
     progress::Bar,
     report::report,
 };
@@ -37,10 +40,16 @@ pub fn run(args: &RunArgs) -> io::Result<End> {
         report(&clash.into())?;
         return Ok(End::BadInput);
     }
+    let only = Only::of(args);
     let mut jobs = Vec::new();
     for file in &args.scenarios.files {
-        let job = Scenario::from_file(file, &args.scenarios.overrides())
-            .and_then(|scenario| Ok((scenario, Folder::check(out(args, file))?)));
+        let job = Scenario::from_file(file, &args.scenarios.overrides()).and_then(|scenario| {
+            if only.is_some() {
+                monte_carlo::study(&scenario)?;
+            }
+            let folder = Folder::check(out(args, file))?;
+            Ok((scenario, folder))
+        });
         match job {
             Ok(job) => jobs.push(job),
             Err(error) => report(&error)?,
@@ -51,6 +60,12 @@ pub fn run(args: &RunArgs) -> io::Result<End> {
     }
     let mut end = End::Success;
     for (scenario, folder) in &jobs {
+        if let Some(only) = &only {
+            match monte_carlo::only(only, args, scenario, folder)? {
+                End::Success => continue,
+                end => return Ok(end),
+            }
+        }
         let record = match one(args.data.as_deref(), args.quiet, scenario, folder) {
             Ok(record) => record,
             Err(error) => {
@@ -58,24 +73,33 @@ pub fn run(args: &RunArgs) -> io::Result<End> {
                 return Ok(End::BadInput);
             }
         };
-        if !args.quiet {
-            writeln!(io::stdout(), "{}\nwritten to {}", record.summary_text(), folder.path().display())?;
-        }
-        if !record.holds() {
-            let failed = record.verdicts.iter().filter(|v| !v.holds);
-            for verdict in failed {
-                writeln!(io::stderr(), "expect failed: {verdict}")?;
-            }
+        if let End::ExpectFailed = show(&record, folder, args.quiet)? {
             end = End::ExpectFailed;
         }
     }
     Ok(end)
 }
 
+/// Tells what was found and where it is.
+pub fn show(record: &Record, folder: &Folder, quiet: bool) -> io::Result<End> {
+    if !quiet {
+        writeln!(io::stdout(), "{}\nwritten to {}", record.summary_text(), folder.path().display())?;
+    }
+    for verdict in record.verdicts.iter().filter(|v| !v.holds) {
+        writeln!(io::stderr(), "expect failed: {verdict}")?;
+    }
+    Ok(if record.holds() { End::Success } else { End::ExpectFailed })
+}
+
 /// Runs a scenario and leaves the results in `folder`; `data` is the folder of recorded logs.
 pub fn one(data: Option<&Path>, quiet: bool, scenario: &Scenario, folder: &Folder) -> Result<Record, Error> {
     let bar = Bar::new(quiet);
     let context = Context { data: data.map(Path::to_path_buf), progress: &bar };
+    if let Study::MonteCarlo(study) = &scenario.study {
+        let result = monte_carlo::whole(scenario, study, folder, &context);
+        bar.finish();
+        return result;
+    }
     let result = run_study(scenario, &context);
     bar.finish();
     let mut record = result?;
@@ -85,7 +109,7 @@ pub fn one(data: Option<&Path>, quiet: bool, scenario: &Scenario, folder: &Folde
 }
 
 /// What was typed.
-fn command() -> String {
+pub fn command() -> String {
     let words = std::env::args().skip(1).map(|word| match word.contains([' ', '\'', '"', '(', '[']) {
         true => format!("'{}'", word.replace('\'', "'\\''")),
         false => word,
@@ -95,7 +119,10 @@ fn command() -> String {
 
 /// The folder of a scenario's results.
 fn out(args: &RunArgs, file: &Path) -> PathBuf {
-    let stem = file.file_stem().unwrap_or(file.as_os_str());
+    let mut stem = file.file_stem().unwrap_or(file.as_os_str()).to_os_string();
+    if let Some(only) = Only::of(args) {
+        stem.push(format!("-{}", only.name()));
+    }
     match &args.out {
         Some(out) if args.scenarios.files.len() == 1 => out.clone(),
         Some(out) => out.join(stem),

@@ -47,6 +47,19 @@ pub enum Error {
         /// Time of the first row without numbers, s.
         time: f64,
     },
+    /// The filter of a budget meets numbers that make no sense.
+    #[error(
+        "the filter of the budget fails: {fault}; expected standard deviations and measurements that fit each other"
+    )]
+    Filter {
+        /// What the filter said.
+        fault: schuler_strapdown::filter::FilterError,
+    },
+    /// A run whose alignment finds no attitude.
+    #[error(
+        "the alignment of a run finds no attitude: {0}; expected sensor errors far below gravity and Earth rate"
+    )]
+    NoAttitude(#[from] schuler_strapdown::align::TriadError),
     /// The IMU model refused its list of error sources.
     #[error("imu: {0}")]
     Imu(#[from] schuler_imu::Error),

@@ -10,6 +10,7 @@ mod error;
 pub mod figure;
 pub mod imu_study;
 pub mod log;
+pub mod monte_carlo;
 pub mod navigate;
 mod navigator;
 mod progress;

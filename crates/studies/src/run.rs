@@ -1,8 +1,8 @@
 //! From a scenario to a record.
 
 use crate::{
-    Context, Error, Scenario, align, allan_study, budget, drift, imu_study, navigate, record::Record,
-    scenario::Study, simulate,
+    Context, Error, Scenario, align, allan_study, budget, drift, imu_study, monte_carlo, navigate,
+    record::Record, scenario::Study, simulate,
 };
 
 /// Runs the study of a scenario and judges its `expect`. A pure function of the scenario and, for
@@ -16,6 +16,7 @@ pub fn run(scenario: &Scenario, context: &Context) -> Result<Record, Error> {
         Study::Aided(aided) => navigate::aided::run(scenario, aided, context)?,
         Study::Align(_) => align::run(scenario, context)?,
         Study::Budget(study) => budget::run(scenario, study, context)?,
+        Study::MonteCarlo(study) => monte_carlo::run(scenario, study, context)?,
         Study::Allan(_) => allan_study::run(scenario, context)?,
     };
     record.judge(scenario);

@@ -2,16 +2,21 @@
 
 use nalgebra::SMatrix;
 use rayon::prelude::*;
-use schuler_frames::Vec3;
-use schuler_imu::Motion;
+use schuler_imu::Truth as Seen;
 use schuler_strapdown::filter::{Accumulator, Form, Propagation};
 use schuler_strapdown::{Increments, Pva};
 
-use super::scene::Scene;
+use super::scene::{Scene, increments};
 use super::source::{Joined, Joint, Nine, ROOM, Source};
 
 /// Longest interval over which transitions are accumulated along a motion, s.
-const INTERVAL: f64 = 1.0;
+pub const INTERVAL: f64 = 1.0;
+
+/// Intervals along a motion whose samples are kept at a time.
+pub const TOGETHER: usize = 64;
+
+/// How the nine errors at the end answer to the states at an earlier time.
+type Lambda = SMatrix<f64, 9, ROOM>;
 
 /// Covariances that each source causes, one for each row of the scene: `result[source][row]`.
 pub fn covariance(scene: &Scene, sources: &[Source]) -> Vec<Vec<Nine>> {
@@ -22,24 +27,39 @@ pub fn covariance(scene: &Scene, sources: &[Source]) -> Vec<Vec<Nine>> {
     }
 }
 
-/// The variances of the nine errors at the last row, each by one pass backward in time: `lambda' x` at the end is carried back
-/// to what a state at an earlier time does to it, and collects the process noise on its way.
+/// The covariances of the nine errors at the last row, each by one pass backward in time: `lambda' x` at the end is carried
+/// back to what a state at an earlier time does to it, and collects the process noise on its way.
 ///
 /// ```text
 /// lambda_k = Phi_k' lambda_(k+1),   var = lambda_0' P_0 lambda_0 + sum of lambda_(k+1)' Q_k lambda_(k+1)
 /// ```
-///
-/// At rest only.
-pub fn adjoint(scene: &Scene, source: &Source) -> Nine {
-    let steady = Steady::new(scene, source);
-    let mut lambda = SMatrix::<f64, 9, ROOM>::identity();
-    let mut p = Nine::zeros();
-    for pair in scene.rows.windows(2).rev() {
-        let step = steady.step(pair[1] - pair[0]);
-        p += lambda * step.q() * lambda.transpose();
-        lambda *= step.phi();
+pub fn adjoint(scene: &Scene, sources: &[Source]) -> Vec<Nine> {
+    if scene.steady {
+        sources.par_iter().map(|source| Steady::new(scene, source).backward(scene)).collect()
+    } else {
+        back(scene, sources)
     }
-    p + lambda * steady.p0 * lambda.transpose()
+}
+
+/// A pass backward.
+struct Backward {
+    lambda: Lambda,
+    p: Nine,
+}
+
+impl Backward {
+    fn new() -> Backward {
+        Backward { lambda: Lambda::identity(), p: Nine::zeros() }
+    }
+
+    fn over(&mut self, step: &Propagation<ROOM>) {
+        self.p += self.lambda * step.q() * self.lambda.transpose();
+        self.lambda *= step.phi();
+    }
+
+    fn end(&self, p0: &Joint) -> Nine {
+        self.p + self.lambda * p0 * self.lambda.transpose()
+    }
 }
 
 /// A source at rest: dynamics that stay as they are, discretised exactly over any interval.
@@ -62,7 +82,7 @@ impl Steady {
                 steps.push((count, Propagation::exact(&model, &system, &seen, scene.time(count))));
             }
         }
-        Steady { p0: source.start(&model), steps }
+        Steady { p0: source.start(scene, &model), steps }
     }
 
     fn step(&self, count: u64) -> &Propagation<ROOM> {
@@ -81,6 +101,38 @@ impl Steady {
         }
         rows
     }
+
+    fn backward(&self, scene: &Scene) -> Nine {
+        let mut back = Backward::new();
+        for pair in scene.rows.windows(2).rev() {
+            back.over(self.step(pair[1] - pair[0]));
+        }
+        back.end(&self.p0)
+    }
+}
+
+/// One sample of a motion: the state at its end, what was seen, and that as increments.
+pub type Sample = (Pva, Seen, Increments);
+
+/// The samples from number `begin` to `end`.
+pub fn samples(scene: &Scene, begin: u64, end: u64) -> Vec<Sample> {
+    (begin..end)
+        .into_par_iter()
+        .map(|k| {
+            let seen = scene.seen(k, 1);
+            (scene.moment(scene.time(k + 1)).0, seen, increments(&seen, scene.dt))
+        })
+        .collect()
+}
+
+/// Begin and end of the intervals along a motion, in samples: each ends at a row or after [`INTERVAL`].
+fn intervals(scene: &Scene) -> Vec<[u64; 2]> {
+    let longest = ((INTERVAL / scene.dt + 1e-9) as u64).max(1);
+    let between = |pair: &[u64]| {
+        let (begin, end) = (pair[0], pair[1]);
+        (begin..end).step_by(longest as usize).map(move |k| [k, end.min(k + longest)])
+    };
+    scene.rows.windows(2).flat_map(between).collect()
 }
 
 /// One source on its way along a motion.
@@ -91,54 +143,66 @@ struct Walker {
     rows: Vec<Nine>,
 }
 
+impl Walker {
+    fn new(scene: &Scene, source: &Source, at: &Pva) -> Walker {
+        let model = source.model(&scene.study.imu.spec);
+        let accumulator = Accumulator::new(&model, scene.dynamics(), at);
+        let p = source.start(scene, &model);
+        Walker { model, accumulator, p, rows: vec![nine(&p)] }
+    }
+
+    fn step(&mut self, samples: &[Sample], dt: f64) -> Propagation<ROOM> {
+        for (pva, seen, increments) in samples {
+            self.accumulator.step_seen(&self.model, pva, seen, increments, dt);
+        }
+        self.accumulator.close(&self.model)
+    }
+}
+
 /// Along any motion: transitions accumulated sample by sample, every source its own, all under the same truth.
 fn along(scene: &Scene, sources: &[Source]) -> Vec<Vec<Nine>> {
     let start = scene.moment(0.0).0;
-    let mut walkers: Vec<Walker> = sources
-        .iter()
-        .map(|source| {
-            let model = source.model(&scene.study.imu.spec);
-            let accumulator = Accumulator::new(&model, scene.dynamics(), &start);
-            let p = source.start(&model);
-            Walker { model, accumulator, p, rows: vec![nine(&p)] }
-        })
-        .collect();
-    let longest = ((INTERVAL / scene.dt + 1e-9) as u64).max(1);
-    for pair in scene.rows.windows(2) {
-        let mut sample = pair[0];
-        while sample < pair[1] {
-            let end = pair[1].min(sample + longest);
-            let steps: Vec<(Pva, schuler_imu::Truth, Increments)> = (sample..end)
-                .map(|k| {
-                    let seen = scene.seen(k, 1);
-                    (scene.moment(scene.time(k + 1)).0, seen, increments(&seen, scene.dt))
-                })
-                .collect();
-            walkers.par_iter_mut().for_each(|walker| {
-                let Walker { model, accumulator, p, .. } = walker;
-                for (pva, seen, increments) in &steps {
-                    accumulator.step_seen(model, pva, seen, increments, scene.dt);
+    let mut walkers: Vec<Walker> = sources.iter().map(|source| Walker::new(scene, source, &start)).collect();
+    let intervals = intervals(scene);
+    for some in intervals.chunks(TOGETHER) {
+        let (first, end) = (some[0][0], some[some.len() - 1][1]);
+        let samples = samples(scene, first, end);
+        walkers.par_iter_mut().for_each(|walker| {
+            for [begin, end] in some {
+                let step = walker.step(&samples[(begin - first) as usize..(end - first) as usize], scene.dt);
+                step.transport(&mut walker.p);
+                step.diffuse(&mut walker.p);
+                if scene.rows.binary_search(end).is_ok() {
+                    walker.rows.push(nine(&walker.p));
                 }
-                let step = accumulator.close(model);
-                step.transport(p);
-                step.diffuse(p);
-            });
-            sample = end;
-        }
-        for walker in &mut walkers {
-            walker.rows.push(nine(&walker.p));
-        }
+            }
+        });
     }
     walkers.into_iter().map(|walker| walker.rows).collect()
 }
 
-/// The true motion of one sample as increments.
-pub fn increments(seen: &schuler_imu::Truth, dt: f64) -> Increments {
-    let (dtheta, dv) = match seen.motion {
-        Motion::Increments { dtheta, dv } => (dtheta, dv),
-        Motion::Rates { omega, f } => (omega.map(|x| x * dt), f.map(|x| x * dt)),
-    };
-    Increments { dtheta: Vec3::claim(dtheta), dv: Vec3::claim(dv) }
+/// Along any motion backward: transitions are made again, some intervals at a time from the last on.
+fn back(scene: &Scene, sources: &[Source]) -> Vec<Nine> {
+    let start = scene.moment(0.0).0;
+    let mut walkers: Vec<(Walker, Backward)> =
+        sources.iter().map(|source| (Walker::new(scene, source, &start), Backward::new())).collect();
+    let intervals = intervals(scene);
+    for some in intervals.chunks(TOGETHER).rev() {
+        let (first, end) = (some[0][0], some[some.len() - 1][1]);
+        let samples = samples(scene, first, end);
+        let at = scene.moment(scene.time(first)).0;
+        walkers.par_iter_mut().for_each(|(walker, back)| {
+            walker.accumulator.begin(&walker.model, &at);
+            let steps: Vec<Propagation<ROOM>> = some
+                .iter()
+                .map(|[begin, end]| {
+                    walker.step(&samples[(begin - first) as usize..(end - first) as usize], scene.dt)
+                })
+                .collect();
+            steps.iter().rev().for_each(|step| back.over(step));
+        });
+    }
+    walkers.into_iter().map(|(walker, back)| back.end(&walker.p)).collect()
 }
 
 fn nine(p: &Joint) -> Nine {

@@ -1,5 +1,7 @@
 //! The budget study: how much of the navigator's error comes from which source, several ways side by side.
 
+mod aided;
+mod alignment;
 mod closed_form;
 mod columns;
 mod covariance;
@@ -12,9 +14,10 @@ mod source;
 #[cfg(test)]
 mod tests;
 
-use rayon::prelude::*;
+pub use columns::Columns;
 
 use crate::{Context, Diagnostic, Error, Scenario, record::Record, scenario::Budget};
+use figures::Beginning;
 use scene::Scene;
 use source::{Nine, Source};
 
@@ -25,12 +28,14 @@ pub enum Way {
     Covariance,
     /// One response of constants and initial errors by the transition matrices of the error dynamics.
     Columns,
-    /// One pass backward from the last row; at rest.
+    /// One pass backward from the last row.
     Adjoint,
     /// Closed form on the ellipsoid; at rest with the height held.
     Exact,
-    /// Mean square over runs of the full navigator.
+    /// Mean square over runs of the full navigator, with its filter where there is one.
     MonteCarlo,
+    /// What the filter itself believes, of all together.
+    Sigma,
 }
 
 impl Way {
@@ -42,6 +47,7 @@ impl Way {
             Way::Adjoint => "adjoint",
             Way::Exact => "exact",
             Way::MonteCarlo => "monte_carlo",
+            Way::Sigma => "sigma",
         }
     }
 }
@@ -68,14 +74,18 @@ impl Contribution {
 /// The row of all sources together.
 const TOTAL: &str = "total";
 
+/// The row of what a filter believes of all together, in the summary.
+const BELIEVED: &str = "total, as the filter believes";
+
 /// Samples of a motion that Monte Carlo runs keep in memory.
 const MOST_SAMPLES: u64 = 4_000_000;
 
 /// Runs a budget study.
 ///
-/// Each component of an error source and each initial error is a row, of one standard deviation (a fixed value counts as
-/// one of its size), independent of all others: the rows sum to the total in variance. Every row is obtained by covariance,
-/// and by all other [`Way`]s that know it.
+/// Each component of an error source, each initial error and each component of the noise of a measurement is a row, of one
+/// standard deviation (a fixed value counts as one of its size), independent of all others: the rows sum to the total in
+/// variance. Every row is obtained by covariance, and by all other [`Way`]s that know it. After an alignment a sensor error
+/// includes the tilt and the heading that it caused; with a filter every row is what the filter's gains leave of it.
 ///
 /// # Errors
 /// Nothing to budget; more samples than Monte Carlo can keep; a run without numbers.
@@ -83,13 +93,20 @@ pub fn run(scenario: &Scenario, study: &Budget, context: &Context) -> Result<Rec
     let scene = Scene::new(study, scenario.output.every);
     let sources = source::sources(study);
     possible(scenario, &scene, &sources)?;
-    let units = if study.runs > 0 { sources.len() as u64 + 1 } else { 0 };
+    let units = match (study.runs, study.runs_of_each) {
+        (0, _) => 0,
+        (_, true) => sources.len() as u64 + 1,
+        (_, false) => 1,
+    };
     context.progress.begin("budget", 1 + units);
-    let mut contributions = linear(&scene, &sources);
+    let mut contributions = linear(&scene, &sources)?;
     context.progress.advance(1);
     if study.runs > 0 {
         let track = monte_carlo::Track::new(&scene);
-        for (k, contribution) in contributions.iter_mut().enumerate() {
+        let each = study.runs_of_each;
+        for (k, contribution) in
+            contributions.iter_mut().enumerate().skip(if each { 0 } else { sources.len() })
+        {
             let together = sources.get(k).map_or(&sources[..], std::slice::from_ref);
             let p = monte_carlo::covariance(&scene, &track, together, scenario.seed)?;
             contribution.said.push(Said { way: Way::MonteCarlo, first: 0, p });
@@ -97,51 +114,53 @@ pub fn run(scenario: &Scenario, study: &Budget, context: &Context) -> Result<Rec
         }
     }
 
-    let mut record = Record::new(scenario, report::summary(&contributions));
+    let mut record = Record::new(scenario, report::summary(&scene, &contributions));
     record.tables.push(report::table(&scene, &contributions));
     if let Some(requirement) = &study.requirement {
-        record.tables.push(report::requirement(&scene, &contributions, requirement));
+        record.tables.push(report::requirement(&scene, &sources, &contributions, requirement));
     }
     record.notes = report::notes(&scene, &contributions);
     if scenario.output.formats.png || scenario.output.formats.svg {
-        record.figures = figures::figures(&scenario.title, &scene, &contributions);
+        let early = scene.beginning();
+        let beginning = Beginning { scene: &early, contributions: &linear(&early, &sources)? };
+        record.figures = figures::figures(&scenario.title, &scene, &contributions, &beginning);
     }
     Ok(record)
 }
 
 /// All ways but runs; the last contribution is the total.
-fn linear(scene: &Scene, sources: &[Source]) -> Vec<Contribution> {
-    let forward = covariance::covariance(scene, sources);
-    let responses = columns::responses(scene, sources);
+///
+/// # Errors
+/// A filter meets numbers that make no sense.
+fn linear(scene: &Scene, sources: &[Source]) -> Result<Vec<Contribution>, Error> {
     let square = |rows: &[[f64; 9]]| rows.iter().map(columns::covariance).collect::<Vec<_>>();
-    let rest: Vec<Vec<Said>> = sources
-        .par_iter()
-        .zip(&responses)
-        .map(|(source, response)| {
-            let mut said = Vec::new();
-            if !response.is_empty() {
-                said.push(Said { way: Way::Columns, first: 0, p: square(response) });
-            }
-            if scene.steady {
-                let p = vec![covariance::adjoint(scene, source)];
-                said.push(Said { way: Way::Adjoint, first: scene.rows.len() - 1, p });
-            }
-            if let Some(response) = closed_form::response(scene, source) {
-                said.push(Said { way: Way::Exact, first: 0, p: square(&response) });
-            }
-            said
-        })
-        .collect();
-    let mut all: Vec<Contribution> = sources
-        .iter()
-        .zip(forward)
-        .zip(rest)
-        .map(|((source, p), rest)| {
-            let mut said = vec![Said { way: Way::Covariance, first: 0, p }];
-            said.extend(rest);
-            Contribution { name: source.name.clone(), said }
-        })
-        .collect();
+    let mut own = None;
+    let (forward, responses, backward) = match &scene.study.filter {
+        Some(filter) => {
+            let found = aided::linear(scene, filter, sources)?;
+            own = Some(Said { way: Way::Sigma, first: 0, p: found.own });
+            (found.covariance, found.columns, None)
+        }
+        None => (
+            covariance::covariance(scene, sources),
+            columns::responses(scene, sources),
+            Some(covariance::adjoint(scene, sources)),
+        ),
+    };
+    let all = sources.iter().zip(forward).zip(&responses).enumerate().map(|(k, ((source, p), response))| {
+        let mut said = vec![Said { way: Way::Covariance, first: 0, p }];
+        if !response.is_empty() {
+            said.push(Said { way: Way::Columns, first: 0, p: square(response) });
+        }
+        if let Some(backward) = &backward {
+            said.push(Said { way: Way::Adjoint, first: scene.rows.len() - 1, p: vec![backward[k]] });
+        }
+        if let Some(response) = closed_form::response(scene, source) {
+            said.push(Said { way: Way::Exact, first: 0, p: square(&response) });
+        }
+        Contribution { name: source.name.clone(), said }
+    });
+    let mut all: Vec<Contribution> = all.collect();
     // A way has a total where it knows every row.
     let mut total = Contribution { name: TOTAL.into(), said: Vec::new() };
     for way in [Way::Covariance, Way::Columns, Way::Adjoint, Way::Exact] {
@@ -151,8 +170,9 @@ fn linear(scene: &Scene, sources: &[Source]) -> Vec<Contribution> {
         let sum = |k: usize| rows.iter().flatten().map(|s| s.p[k]).sum::<Nine>();
         total.said.push(Said { way, first, p: (0..len).map(sum).collect() });
     }
+    total.said.extend(own);
     all.push(total);
-    all
+    Ok(all)
 }
 
 fn possible(scenario: &Scenario, scene: &Scene, sources: &[Source]) -> Result<(), Error> {
@@ -161,6 +181,12 @@ fn possible(scenario: &Scenario, scene: &Scene, sources: &[Source]) -> Result<()
             .path("imu")
             .expected("error sources, or `budget: { initial_sigmas: … }`")
             .example("gyro: [{ bias: { constant: { sigma: 0.01 deg/h } } }]")
+            .into());
+    }
+    if let Some(fault) = scene.study.filter.as_ref().and_then(|filter| aided::too_large(scene, filter)) {
+        return Err(Diagnostic::new(&scenario.file, format!("no such filter: {fault}"))
+            .path("budget.filter")
+            .expected(format!("at most {} states", aided::MOST_STATES))
             .into());
     }
     if scene.study.runs > 0 && !scene.steady && scene.study.samples > MOST_SAMPLES {

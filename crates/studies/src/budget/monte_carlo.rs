@@ -1,4 +1,4 @@
-//! Runs of the full navigator under sensor errors drawn at random.
+//! Runs of the full navigator under errors drawn at random.
 
 use rayon::prelude::*;
 use schuler_frames::{Vec3, with_phi, with_position_error};
@@ -7,20 +7,23 @@ use schuler_strapdown::{Increments, NavError, Pva};
 
 use super::scene::Scene;
 use super::source::{Nine, Source};
+use super::{aided, alignment};
 use crate::{Error, navigator::Navigator};
 
-/// What every run navigates along: input of the sensors and the true state at each row.
+/// What every run navigates along: input of the sensors, the true state at each row, and what is measured.
 pub struct Track {
     inputs: Vec<schuler_imu::Truth>,
     states: Vec<Pva>,
+    measured: Option<aided::Track>,
 }
 
 impl Track {
     pub fn new(scene: &Scene) -> Track {
         let inputs = if scene.steady { 1 } else { scene.study.samples };
         Track {
-            inputs: (0..inputs).map(|k| scene.seen(k, 1)).collect(),
+            inputs: (0..inputs).into_par_iter().map(|k| scene.seen(k, 1)).collect(),
             states: scene.rows.iter().map(|&k| scene.moment(scene.time(k)).0).collect(),
+            measured: scene.study.filter.as_ref().map(|filter| aided::Track::new(scene, filter)),
         }
     }
 }
@@ -43,7 +46,8 @@ pub fn covariance(scene: &Scene, track: &Track, sources: &[Source], seed: u64) -
             .into_par_iter()
             .map(|i| {
                 let stream = Stream { seed, run: i };
-                run(scene, track, &spec, &initial(sources, stream), stream)
+                let initial = initial(sources, stream);
+                Run { track, sources, spec: &spec, initial, stream }.navigate(scene)
             })
             .collect();
         for rows in batch? {
@@ -68,51 +72,89 @@ fn initial(sources: &[Source], stream: Stream) -> [f64; 9] {
     sum
 }
 
-/// Navigation errors of one run at each row.
-///
-/// # Errors
-/// The IMU refuses its list; the run gives no numbers.
-pub fn run(
-    scene: &Scene,
-    track: &Track,
-    spec: &Spec,
-    initial: &[f64; 9],
-    stream: Stream,
-) -> Result<Vec<[f64; 9]>, Error> {
-    let part = |k: usize| [initial[k], initial[k + 1], initial[k + 2]];
-    let Pva { position, v_t, c_tb } = track.states[0];
-    let start = Pva {
-        position: with_position_error(position, Vec3::claim(part(0))),
-        v_t: v_t + Vec3::claim(part(3)),
-        c_tb: with_phi(c_tb, Vec3::claim(part(6))),
-    };
-    let mut nav = Navigator::new(&start, &scene.study.mechanization, scene.vertical, scene.dt);
-    let mut imu = Imu::new(spec, stream)?;
-    // At rest, errors that keep their value give the same sample every time: it need not be made again.
-    let same = scene.steady && spec.components().all(|c| c.evolution().is_constant());
-    let mut increments = Increments { dtheta: Vec3::ZERO, dv: Vec3::ZERO };
-    let mut rows = Vec::with_capacity(scene.rows.len());
-    let mut sample = 0;
-    for (&row, truth) in scene.rows.iter().zip(&track.states) {
-        while sample < row {
-            if !same || sample == 0 {
-                let seen = &track.inputs[if scene.steady { 0 } else { sample as usize }];
-                let measured = imu.step(scene.dt, seen);
-                increments =
-                    Increments { dtheta: Vec3::claim(measured.dtheta), dv: Vec3::claim(measured.dv) };
-            }
-            nav.step(&increments);
-            sample += 1;
+/// One run.
+pub struct Run<'a> {
+    pub track: &'a Track,
+    /// What is true in it.
+    pub sources: &'a [Source],
+    /// Its sensor errors.
+    pub spec: &'a Spec,
+    /// Its initial errors.
+    pub initial: [f64; 9],
+    /// Its random numbers.
+    pub stream: Stream,
+}
+
+impl Run<'_> {
+    /// Navigation errors at each row, by the filter where there is one.
+    ///
+    /// # Errors
+    /// The IMU refuses its list; the alignment finds no attitude; the run gives no numbers.
+    pub fn navigate(&self, scene: &Scene) -> Result<Vec<[f64; 9]>, Error> {
+        match (&scene.study.filter, &self.track.measured) {
+            (Some(filter), Some(measured)) => aided::run(scene, filter, measured, self),
+            _ => self.free(scene),
         }
-        let errors = NavError::between(&nav.pva(), truth).as_array();
-        if errors.iter().any(|x| !x.is_finite()) {
-            return Err(Error::Diverged {
-                source_name: format!("number {}", stream.run),
-                way: "monte_carlo",
-                time: scene.time(row),
-            });
-        }
-        rows.push(errors);
     }
-    Ok(rows)
+
+    fn free(&self, scene: &Scene) -> Result<Vec<[f64; 9]>, Error> {
+        let mut imu = Imu::new(self.spec, self.stream)?;
+        // At rest, errors that keep their value give the same sample every time: it need not be made again.
+        let keeps = self.spec.components().all(|c| c.evolution().is_constant());
+        let start = self.begin(scene, &mut imu, keeps)?;
+        let mut nav = Navigator::new(&start, &scene.study.mechanization, scene.vertical, scene.dt);
+        let same = scene.steady && keeps;
+        let mut increments = Increments { dtheta: Vec3::ZERO, dv: Vec3::ZERO };
+        let mut rows = Vec::with_capacity(scene.rows.len());
+        let mut sample = 0;
+        for (&row, truth) in scene.rows.iter().zip(&self.track.states) {
+            while sample < row {
+                if !same || sample == 0 {
+                    let measured = imu.step(scene.dt, self.seen(sample));
+                    increments =
+                        Increments { dtheta: Vec3::claim(measured.dtheta), dv: Vec3::claim(measured.dv) };
+                }
+                nav.step(&increments);
+                sample += 1;
+            }
+            rows.push(self.finite(NavError::between(&nav.pva(), truth).as_array(), scene.time(row))?);
+        }
+        Ok(rows)
+    }
+
+    /// The computed state at t = 0, after the alignment where there is one; `keeps` says that all errors of the sensors keep
+    /// their value.
+    pub fn begin(&self, scene: &Scene, imu: &mut Imu, keeps: bool) -> Result<Pva, Error> {
+        let Pva { position, v_t, c_tb } = self.track.states[0];
+        let c_tb = match scene.study.alignment {
+            0 => c_tb,
+            _ => alignment::attitude(scene, imu, keeps)?,
+        };
+        let part = |k: usize| Vec3::claim([self.initial[k], self.initial[k + 1], self.initial[k + 2]]);
+        Ok(Pva {
+            position: with_position_error(position, part(0)),
+            v_t: v_t + part(3),
+            c_tb: with_phi(c_tb, part(6)),
+        })
+    }
+
+    /// What the sensors go through in a sample.
+    pub fn seen(&self, sample: u64) -> &schuler_imu::Truth {
+        let inputs = &self.track.inputs;
+        &inputs[if inputs.len() == 1 { 0 } else { sample as usize }]
+    }
+
+    /// True states at the rows.
+    pub fn states(&self) -> &[Pva] {
+        &self.track.states
+    }
+
+    /// The errors at the time `t` (s), if they are numbers.
+    pub fn finite(&self, errors: [f64; 9], t: f64) -> Result<[f64; 9], Error> {
+        if errors.iter().all(|x| x.is_finite()) {
+            return Ok(errors);
+        }
+        let source_name = format!("number {}", self.stream.run);
+        Err(Error::Diverged { source_name, way: "monte_carlo", time: t })
+    }
 }

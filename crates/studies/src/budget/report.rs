@@ -1,11 +1,11 @@
 //! Tables and remarks of a budget.
 
-use schuler_strapdown::filter::chi_square;
+use schuler_strapdown::{Vertical, filter::chi_square};
 
-use super::radius::{derivative, horizontal, may_grow, radius};
+use super::radius::{derivative, horizontal, may_grow, radius, space, spherical};
 use super::scene::Scene;
-use super::source::Nine;
-use super::{Contribution, TOTAL, Way};
+use super::source::{Nine, Source};
+use super::{BELIEVED, Contribution, TOTAL, Way};
 use crate::{
     record::{Cell, Table, columns},
     scenario::Requirement,
@@ -14,6 +14,13 @@ use crate::{
 /// Columns of the summary: one standard deviation of each source at the end.
 const SUMMARY: [&str; 8] =
     ["source", "north_m", "east_m", "horizontal_m", "share_percent", "cep_m", "r95_m", "heading_arcmin"];
+
+/// What it has besides where the vertical channel is not held.
+const IN_SPACE: [&str; 3] = ["down_m", "sep_m", "spherical_r95_m"];
+
+/// Part of the total variance below which that of a source is not judged by runs: what linear theory leaves of it is smaller
+/// than what the second order does.
+const JUDGED: f64 = 1e-6;
 
 /// Everything that every way says.
 pub fn table(scene: &Scene, contributions: &[Contribution]) -> Table {
@@ -28,8 +35,15 @@ pub fn table(scene: &Scene, contributions: &[Contribution]) -> Table {
                     vec![scene.time(scene.rows[row]).into(), c.name.as_str().into(), said.way.name().into()];
                 cells.extend((0..9).map(|k| Cell::from(sigma(p, k))));
                 let size = plane.trace().max(0.0).sqrt();
-                let share = share(p, &total[row]);
-                cells.extend([size, radius(&plane, 0.5), radius(&plane, 0.95), share].map(Cell::from));
+                let shares = [share(p, &total[row]), heading_share(p, &total[row])];
+                let radii = [0.5, 0.95].map(|p| radius(&plane, p));
+                let in_space = if scene.vertical == Vertical::Held {
+                    radii
+                } else {
+                    [0.5, 0.95].map(|probability| spherical(&space(p), probability))
+                };
+                cells.extend([size].map(Cell::from));
+                cells.extend(radii.iter().chain(&in_space).chain(&shares).map(|x| Cell::from(*x)));
                 table.push(&cells);
             }
         }
@@ -38,8 +52,14 @@ pub fn table(scene: &Scene, contributions: &[Contribution]) -> Table {
 }
 
 /// What binds: the radius of the required probability and how it answers to each source.
-pub fn requirement(scene: &Scene, contributions: &[Contribution], r: &Requirement) -> Table {
-    let mut table = Table::new("requirement", &columns::REQUIREMENT, &["source"]);
+pub fn requirement(
+    scene: &Scene,
+    sources: &[Source],
+    contributions: &[Contribution],
+    r: &Requirement,
+) -> Table {
+    let words = ["source", "parameter", "unit"];
+    let mut table = Table::new("requirement", &columns::REQUIREMENT, &words);
     let row = scene
         .rows
         .iter()
@@ -47,34 +67,47 @@ pub fn requirement(scene: &Scene, contributions: &[Contribution], r: &Requiremen
         .expect("invariant: the time of a valid requirement is that of a row");
     let whole = horizontal(&total(contributions)[row]);
     let reached = radius(&whole, r.probability);
-    for c in contributions {
+    for (k, c) in contributions.iter().enumerate() {
         let part = horizontal(&c.of(Way::Covariance).unwrap_or_default()[row]);
         let slope = derivative(&whole, &part, reached);
-        let cells: [Cell; 6] = [
+        let factor = may_grow(&whole, &part, r.probability, r.horizontal);
+        // All together have no number of their own.
+        let number = sources.get(k).map(|source| source.parameter(scene));
+        let (name, value) = number.as_ref().map_or(("", f64::NAN), |(name, _, value)| (*name, *value));
+        let unit = number.map_or(String::new(), |(_, unit, _)| unit.to_string());
+        let cells: [Cell; 10] = [
             r.at.into(),
             c.name.as_str().into(),
             radius(&part, r.probability).into(),
             slope.into(),
             (slope / reached).into(),
-            may_grow(&whole, &part, r.probability, r.horizontal).into(),
+            factor.into(),
+            name.into(),
+            unit.as_str().into(),
+            value.into(),
+            (factor * value).into(),
         ];
         table.push(&cells);
     }
     table
 }
 
-/// The end of the budget, the largest first.
-pub fn summary(contributions: &[Contribution]) -> Table {
-    let mut table = Table::new("summary", &SUMMARY, &["source"]);
+/// The end of the budget, the largest first, and what a filter believes of it.
+pub fn summary(scene: &Scene, contributions: &[Contribution]) -> Table {
+    let held = scene.vertical == Vertical::Held;
+    let names = if held { SUMMARY.to_vec() } else { [&SUMMARY[..], &IN_SPACE].concat() };
+    let mut table = Table::new("summary", &names, &["source"]);
     let total = total(contributions);
     let Some(last) = total.last() else { return table };
-    let mut order: Vec<(&Contribution, Nine)> =
-        contributions.iter().filter_map(|c| Some((c, *c.of(Way::Covariance)?.last()?))).collect();
+    let end = |c: &Contribution, way| c.of(way).and_then(|p| p.last().copied());
+    let mut order: Vec<(&str, Nine)> =
+        contributions.iter().filter_map(|c| Some((c.name.as_str(), end(c, Way::Covariance)?))).collect();
     order.sort_by(|(_, a), (_, b)| horizontal(b).trace().total_cmp(&horizontal(a).trace()));
-    for (c, p) in order {
+    order.extend(contributions.iter().filter_map(|c| Some((BELIEVED, end(c, Way::Sigma)?))));
+    for (name, p) in order {
         let plane = horizontal(&p);
-        table.push(&[
-            c.name.as_str().into(),
+        let mut cells: Vec<Cell> = vec![
+            name.into(),
             sigma(&p, 0).into(),
             sigma(&p, 1).into(),
             plane.trace().max(0.0).sqrt().into(),
@@ -82,7 +115,12 @@ pub fn summary(contributions: &[Contribution]) -> Table {
             radius(&plane, 0.5).into(),
             radius(&plane, 0.95).into(),
             (sigma(&p, 8).to_degrees() * 60.0).into(),
-        ]);
+        ];
+        if !held {
+            let in_space = [0.5, 0.95].map(|probability| spherical(&space(&p), probability));
+            cells.extend([sigma(&p, 2), in_space[0], in_space[1]].map(Cell::from));
+        }
+        table.push(&cells);
     }
     table
 }
@@ -91,27 +129,27 @@ pub fn summary(contributions: &[Contribution]) -> Table {
 pub fn notes(scene: &Scene, contributions: &[Contribution]) -> Vec<String> {
     let mut notes = vec![
         "Sources are independent of each other: variances sum to the total; a fixed value counts as one standard deviation of its size".into(),
-        "cep_m and r95_m are the radii that hold 50 % and 95 % of plane normal errors of that covariance; horizontal_m is the root of the sum of both variances".into(),
+        "cep_m and r95_m are the radii that hold 50 % and 95 % of plane normal errors of that covariance, sep_m and spherical_r95_m the same in space; horizontal_m is the root of the sum of both variances".into(),
     ];
-    let runs = scene.study.runs;
-    if runs > 0 {
-        let (mut all, mut outside) = (0, 0);
-        let [low, high] = band(runs);
-        for c in contributions {
-            let (Some(theory), Some(found)) = (c.of(Way::Covariance), c.of(Way::MonteCarlo)) else {
-                continue;
-            };
-            let (Some(p), Some(q)) = (theory.last(), found.last()) else { continue };
-            for k in [0, 1, 3, 4, 6, 7, 8] {
-                let ratio = q[(k, k)] / p[(k, k)];
-                all += 1;
-                outside += usize::from(!(low..=high).contains(&ratio));
-            }
-        }
+    if scene.study.alignment > 0 {
         notes.push(format!(
-            "Monte Carlo of {runs} runs: {outside} of {all} variances of the last row are outside their 99 % chi-square band [{low:.4}, {high:.4}] about the covariance"
+            "Tilt and heading at t = 0 are what each source did to an alignment at rest of {} s before (level by the specific force, north by the angular rate), so that they hang together with what it does after",
+            scene.time(scene.study.alignment)
         ));
     }
+    let believed = contributions.iter().find_map(|c| c.of(Way::Sigma)).and_then(|p| p.last());
+    if let (Some(believed), Some(truth)) = (believed, total(contributions).last()) {
+        let size = |p: &Nine| horizontal(p).trace().max(0.0).sqrt();
+        notes.push(format!(
+            "The filter takes its horizontal error at the end to be {:.4} m, its true standard deviation is {:.4} m ({:.3} times as much); heading {:.4} and {:.4} arcmin",
+            size(believed),
+            size(truth),
+            size(truth) / size(believed),
+            sigma(believed, 8).to_degrees() * 60.0,
+            sigma(truth, 8).to_degrees() * 60.0,
+        ));
+    }
+    notes.extend(judged(scene, contributions));
     if let Some(r) = &scene.study.requirement {
         let row = scene.rows.iter().position(|&k| (scene.time(k) - r.at).abs() < 0.5 * scene.dt);
         let reached = row.map(|row| radius(&horizontal(&total(contributions)[row]), r.probability));
@@ -125,6 +163,29 @@ pub fn notes(scene: &Scene, contributions: &[Contribution]) -> Vec<String> {
         ));
     }
     notes
+}
+
+/// The runs beside the covariance.
+fn judged(scene: &Scene, contributions: &[Contribution]) -> Option<String> {
+    let runs = scene.study.runs;
+    if runs == 0 {
+        return None;
+    }
+    let whole = total(contributions).last()?;
+    let [low, high] = band(runs);
+    let (mut all, mut outside) = (0, 0);
+    for c in contributions {
+        let (Some(theory), Some(found)) = (c.of(Way::Covariance), c.of(Way::MonteCarlo)) else { continue };
+        let (Some(p), Some(q)) = (theory.last(), found.last()) else { continue };
+        for k in (0..9).filter(|&k| p[(k, k)] > JUDGED * whole[(k, k)]) {
+            let ratio = q[(k, k)] / p[(k, k)];
+            all += 1;
+            outside += usize::from(!(low..=high).contains(&ratio));
+        }
+    }
+    Some(format!(
+        "Monte Carlo of {runs} runs: {outside} of {all} variances of the last row are outside their 99 % chi-square band [{low:.4}, {high:.4}] about the covariance (those below 0.1 % of the total in standard deviation are not judged)"
+    ))
 }
 
 /// 99 % band of the mean square of `runs` normals of variance one. Beyond a thousand by the cube-root approximation of
@@ -148,7 +209,13 @@ pub fn total(contributions: &[Contribution]) -> &[Nine] {
 /// Part of the horizontal variance; zero at the start of a budget without initial position errors.
 pub fn share(p: &Nine, total: &Nine) -> f64 {
     let whole = horizontal(total).trace();
-    if whole > 0.0 { horizontal(p).trace() / whole } else { 0.0 }
+    if whole > 0.0 { horizontal(p).trace().max(0.0) / whole } else { 0.0 }
+}
+
+/// Part of the heading variance; zero where there is none.
+pub fn heading_share(p: &Nine, total: &Nine) -> f64 {
+    let whole = total[(8, 8)];
+    if whole > 0.0 { p[(8, 8)].max(0.0) / whole } else { 0.0 }
 }
 
 /// Standard deviation of error `k`; rounding below zero is zero.

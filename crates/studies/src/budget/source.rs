@@ -1,10 +1,13 @@
 //! The rows of a budget: each component of an error source, each component of the initial error.
 
 use nalgebra::SMatrix;
-use schuler_imu::{Component, Spec};
+use schuler_imu::process::ParameterUnit;
+use schuler_imu::{Component, Spec, Unit};
 use schuler_strapdown::filter::{Form, Model, NavStates};
 
-use crate::scenario::{Budget, Initial};
+use super::alignment;
+use super::scene::Scene;
+use crate::scenario::{Aid, Aiding, Budget, Initial, MeasuredKind, Vertical};
 
 /// States of one component beside the nine navigation errors: no process has more.
 pub const ROOM: usize = 9 + schuler_imu::process::MAX_STATES;
@@ -32,6 +35,17 @@ pub enum Kind {
     Sensor(Box<Component>),
     /// One initial error; its numbers are standard deviations.
     Initial(Initial),
+    /// One component of the noise of a measurement.
+    Noise(Noise),
+}
+
+/// One component of the noise of a measurement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Noise {
+    /// Of what.
+    pub kind: MeasuredKind,
+    /// Number of the component.
+    pub axis: usize,
 }
 
 /// A coefficient that is known but for its size: standard deviations of its value at t = 0 and of its rate.
@@ -53,14 +67,76 @@ pub fn sources(study: &Budget) -> Vec<Source> {
         .filter(|s| s.size().is_none_or(|size| size.value != 0.0 || size.rate != 0.0));
     let initial =
         study.initial_sigmas.iter().map(|i| Source { name: i.name.into(), kind: Kind::Initial(*i) });
-    sensors.chain(initial).collect()
+    sensors.chain(initial).chain(noises(study)).collect()
+}
+
+/// The noises of the measurements, components that the vertical channel or a size of zero leaves out are left out.
+fn noises(study: &Budget) -> Vec<Source> {
+    let mut all = Vec::new();
+    if let Some(filter) = &study.filter {
+        for (kind, aid) in measurements(&filter.aiding) {
+            for (axis, name) in kind.parts().iter().enumerate() {
+                let seen = axis != 2 || study.mechanization.vertical != Vertical::Held;
+                if seen && aid.sigma[axis] > 0.0 {
+                    let kind = Kind::Noise(Noise { kind, axis });
+                    all.push(Source { name: format!("aiding.{name}"), kind });
+                }
+            }
+        }
+    }
+    all
+}
+
+/// What is measured.
+pub fn measurements(aiding: &Aiding) -> impl Iterator<Item = (MeasuredKind, &Aid)> {
+    [
+        (MeasuredKind::Position, &aiding.position),
+        (MeasuredKind::Velocity, &aiding.velocity),
+        (MeasuredKind::Height, &aiding.height),
+        (MeasuredKind::Heading, &aiding.heading),
+    ]
+    .into_iter()
+    .filter_map(|(kind, aid)| Some((kind, aid.as_ref()?)))
 }
 
 impl Source {
+    /// The number of the scenario that it is as large as: its name, its SI unit and its size.
+    pub fn parameter(&self, scene: &Scene) -> (&'static str, Unit, f64) {
+        const SPEED: Unit = Unit::METRE.over(Unit::SECOND);
+        const SIGMA: &str = "sigma";
+        match &self.kind {
+            Kind::Sensor(component) => {
+                let evolution = component.evolution();
+                let form = evolution.kind.forms()[evolution.arguments.form];
+                let sized =
+                    |p: &&schuler_imu::process::Parameter| matches!(p.unit, ParameterUnit::Coefficient(_));
+                let number = form.iter().position(|p| sized(&p)).unwrap_or(0);
+                let size = (evolution.gain * evolution.arguments.values[number]).abs();
+                (form[number].name, form[number].unit_for(component.unit()), size)
+            }
+            Kind::Initial(i) => {
+                let size = |x: [f64; 3]| x.into_iter().sum::<f64>();
+                let all = [(Unit::METRE, i.position), (SPEED, i.velocity), (Unit::RADIAN, i.phi)];
+                let (unit, of) = all.into_iter().find(|(_, x)| size(*x) != 0.0).unwrap_or(all[0]);
+                (SIGMA, unit, size(of))
+            }
+            Kind::Noise(noise) => {
+                let unit = match noise.kind {
+                    MeasuredKind::Position | MeasuredKind::Height => Unit::METRE,
+                    MeasuredKind::Velocity => SPEED,
+                    MeasuredKind::Heading => Unit::RADIAN,
+                };
+                let filter = scene.study.filter.as_ref();
+                let aid = filter.and_then(|f| measurements(&f.aiding).find(|(k, _)| *k == noise.kind));
+                (SIGMA, unit, aid.map_or(0.0, |(_, aid)| aid.sigma[noise.axis]))
+            }
+        }
+    }
+
     /// The nine initial errors of one standard deviation.
     pub fn initial(&self) -> [f64; 9] {
         match &self.kind {
-            Kind::Sensor(_) => [0.0; 9],
+            Kind::Sensor(_) | Kind::Noise(_) => [0.0; 9],
             Kind::Initial(i) => {
                 let all = [i.position, i.velocity, i.phi];
                 std::array::from_fn(|k| all[k / 3][k % 3])
@@ -72,7 +148,7 @@ impl Source {
     pub fn spec(&self, all: &Spec) -> Spec {
         match &self.kind {
             Kind::Sensor(component) => all.only(component),
-            Kind::Initial(_) => Spec::new(),
+            Kind::Initial(_) | Kind::Noise(_) => Spec::new(),
         }
     }
 
@@ -82,15 +158,20 @@ impl Source {
             .expect("invariant: no component has more states than there is room for")
     }
 
-    /// Second moment of all states at t = 0. A fixed value counts as a standard deviation of its size.
-    pub fn start(&self, model: &Joined) -> Joint {
+    /// Second moment of all states at t = 0, after the alignment where there is one. A fixed value counts as a standard
+    /// deviation of its size.
+    pub fn start(&self, scene: &Scene, model: &Joined) -> Joint {
         let p = model.p0(&self.initial()).expect("invariant: standard deviations of a valid scenario");
         let x = model.x0();
-        p + x * x.transpose()
+        let p = p + x * x.transpose();
+        match (&self.kind, scene.study.alignment) {
+            (Kind::Sensor(_), 1..) => alignment::covariance(scene, model, &p),
+            _ => p,
+        }
     }
 
-    /// The size of a coefficient that is constant or a ramp; `None` of a process that is random in time, and of an initial
-    /// error.
+    /// The size of a coefficient that is constant or a ramp, at the beginning of the alignment or at t = 0 without; `None`
+    /// of a process that is random in time, and of what is no sensor error.
     pub fn size(&self) -> Option<Size> {
         let Kind::Sensor(component) = &self.kind else { return None };
         let m = component.evolution().linear_model();

@@ -52,7 +52,7 @@ pub(super) fn draw(figure: &Figure, canvas: &mut dyn Canvas) -> Result<(), Figur
     let ends: Vec<[f64; 2]> = figure.panels.iter().map(|p| map::y_ends(p, x_ends)).collect();
     let y_ticks = |height: f64| -> Vec<Ticks> {
         let wanted = (height / ROOM_Y).clamp(2.0, 10.0);
-        figure.panels.iter().zip(&ends).map(|(p, e)| ticks(p.y.scale, e[0], e[1], wanted)).collect()
+        figure.panels.iter().zip(&ends).map(|(p, e)| y_ticks_of(&p.y, *e, wanted)).collect()
     };
     let guessed = y_ticks(guess);
     let widest =
@@ -116,6 +116,15 @@ pub(super) fn draw(figure: &Figure, canvas: &mut dyn Canvas) -> Result<(), Figur
     let x_label = font::fit(&axis_label(&figure.x, Some(&x_ticks)), LABEL, false, w - 2.0 * EDGE);
     canvas.text(&x_label, text(LABEL, Anchor::Middle), (0.5 * (left + right), h - EDGE - 2.0))?;
     plan.draw(canvas, (left, legend_top), (right + 16.0, top - 4.0), bottom - top + 8.0)
+}
+
+/// Ticks of a y axis: names of rows, or numbers.
+fn y_ticks_of(axis: &Axis, [low, high]: [f64; 2], wanted: f64) -> Ticks {
+    if axis.names.is_empty() {
+        return ticks(axis.scale, low, high, wanted);
+    }
+    let major = axis.names.iter().enumerate().map(|(k, name)| (-(k as f64), name.clone())).collect();
+    Ticks { major, ..Ticks::default() }
 }
 
 fn text(size: f64, anchor: Anchor) -> Type {

@@ -56,22 +56,30 @@ pub struct Axis {
     pub scale: Scale,
     /// Ends in data units; `None` means as wide as the data.
     pub range: Option<[f64; 2]>,
+    /// Of an axis of rows, what stands at -0, -1, -2 and so on in place of numbers; else empty.
+    pub names: Vec<String>,
 }
 
 impl Axis {
     /// A linear axis as wide as the data.
     pub fn linear(label: impl Into<String>) -> Self {
-        Axis { label: label.into(), scale: Scale::Linear, range: None }
+        Axis { label: label.into(), scale: Scale::Linear, range: None, names: Vec::new() }
     }
 
     /// A logarithmic axis as wide as the positive data.
     pub fn log(label: impl Into<String>) -> Self {
-        Axis { label: label.into(), scale: Scale::Log, range: None }
+        Axis { label: label.into(), scale: Scale::Log, range: None, names: Vec::new() }
     }
 
     /// A time axis: the data are seconds, the label carries no unit.
     pub fn time(label: impl Into<String>) -> Self {
-        Axis { label: label.into(), scale: Scale::Time, range: None }
+        Axis { label: label.into(), scale: Scale::Time, range: None, names: Vec::new() }
+    }
+
+    /// An axis of rows, the first on top at 0, the next at -1 and so on, each with its name.
+    pub fn rows(names: Vec<String>) -> Self {
+        let count = names.len() as f64;
+        Axis { names, ..Axis::linear("") }.from_to(0.5 - count, 0.5)
     }
 
     /// The same axis from `low` to `high` (data units); what lies outside is cut off.

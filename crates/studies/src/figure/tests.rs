@@ -22,7 +22,12 @@ fn awkward() -> impl Strategy<Value = f64> {
 fn axis() -> impl Strategy<Value = Axis> {
     let scale = prop_oneof![Just(Scale::Linear), Just(Scale::Log), Just(Scale::Time)];
     let range = prop_oneof![3 => Just(None), 1 => (awkward(), awkward()).prop_map(|(a, b)| Some([a, b]))];
-    ("[ -~°√²µσ]{0,60}", scale, range).prop_map(|(label, scale, range)| Axis { label, scale, range })
+    ("[ -~°√²µσ]{0,60}", scale, range).prop_map(|(label, scale, range)| Axis {
+        label,
+        scale,
+        range,
+        names: Vec::new(),
+    })
 }
 
 fn series() -> impl Strategy<Value = Series> {

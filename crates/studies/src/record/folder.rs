@@ -10,6 +10,8 @@ use crate::{Diagnostic, Error, scenario::Formats};
 
 /// Lists the files of a run: by this a folder of an earlier run, and what in it is the run's own, are known.
 const SUMMARY: &str = "summary.json";
+/// The same of a folder of runs that are to be merged.
+pub const MANIFEST: &str = "manifest.json";
 const FIGURES: &str = "figures";
 const EXPECTED: &str = "a new folder, an empty one, or one with nothing but the files of an earlier run, \
                         where new files can be made";
@@ -46,11 +48,17 @@ impl Folder {
     /// # Errors
     /// [`Error::Write`], [`Error::Input`] or [`Error::Figure`]; then nothing has changed.
     pub fn write(&self, record: &Record, formats: Formats) -> Result<(), Error> {
+        self.put(|part| fill(part, record, formats))
+    }
+
+    /// As [`Folder::write`] with whatever `fill` puts into the new folder; its [`MANIFEST`] lists the files.
+    pub(crate) fn put(&self, fill: impl FnOnce(&Path) -> Result<(), Error>) -> Result<(), Error> {
         // A link stays, what it leads to is replaced.
         let target = fs::canonicalize(&self.path).unwrap_or_else(|_| self.path.clone());
         let part = beside(&target, "part");
         let made = absent_above(&target);
-        let result = fill(&part, record, formats).and_then(|()| {
+        let new = |source| Error::Write { path: part.clone(), source };
+        let result = fs::create_dir_all(&part).map_err(new).and_then(|()| fill(&part)).and_then(|()| {
             // Somebody may have put a file there while the study ran.
             Folder::check(&self.path)?;
             replace(&target, &part).map_err(|source| Error::Write { path: self.path.clone(), source })
@@ -165,12 +173,15 @@ fn own(folder: &Path) -> Vec<String> {
     struct Summary {
         files: Vec<String>,
     }
-    let text = fs::read_to_string(folder.join(SUMMARY)).unwrap_or_default();
-    let Ok(Summary { mut files }) = serde_json::from_str(&text) else { return Vec::new() };
+    let listed = [SUMMARY, MANIFEST].into_iter().find_map(|name| {
+        let text = fs::read_to_string(folder.join(name)).ok()?;
+        Some((serde_json::from_str::<Summary>(&text).ok()?.files, name))
+    });
+    let Some((mut files, name)) = listed else { return Vec::new() };
     if files.iter().any(|name| name.starts_with("figures/")) {
         files.push(FIGURES.into());
     }
-    files.push(SUMMARY.into());
+    files.push(name.into());
     files
 }
 
@@ -179,7 +190,6 @@ fn fill(part: &Path, record: &Record, formats: Formats) -> Result<(), Error> {
         let path = path.to_path_buf();
         move |source| Error::Write { path, source }
     };
-    fs::create_dir_all(part).map_err(failed(part))?;
     let mut files = Vec::new();
     if formats.csv {
         for table in &record.tables {

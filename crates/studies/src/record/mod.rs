@@ -10,6 +10,7 @@ mod tests;
 mod verdict;
 
 pub use folder::Folder;
+pub(crate) use folder::MANIFEST;
 pub use table::{Cell, Column, Table, columns};
 
 use serde::Serialize;

@@ -277,8 +277,9 @@ pub mod columns {
     /// `windows.csv` of an alignment of a log: the attitude at the end of each window.
     pub const WINDOWS: [&str; 5] = ["t_s", "source", "roll_rad", "pitch_rad", "yaw_rad"];
     /// `budget.csv`: standard deviations of the nine navigation errors; the root of the sum of the horizontal variances, the
-    /// radii that hold 50 % and 95 % of the horizontal position errors, and the share of the horizontal variance.
-    pub const BUDGET: [&str; 16] = [
+    /// radii that hold 50 % and 95 % of the horizontal position errors and of the errors in space, and the shares of the
+    /// horizontal variance and of the heading's.
+    pub const BUDGET: [&str; 19] = [
         "t_s",
         "source",
         "way",
@@ -294,12 +295,59 @@ pub mod columns {
         "horizontal_m",
         "cep_m",
         "r95_m",
+        "sep_m",
+        "spherical_r95_m",
         "share_ratio",
+        "heading_share_ratio",
     ];
     /// `requirement.csv`: the radius of the required probability, of a source alone and of all; its derivative by the relative
-    /// size of the source and that over the radius; and the factor by which the source may grow.
-    pub const REQUIREMENT: [&str; 6] =
-        ["t_s", "source", "radius_m", "derivative_m", "part_ratio", "may_grow_ratio"];
+    /// size of the source and that over the radius; the factor by which the source may grow; and which number of the scenario
+    /// that is, its SI unit, its value, and the value with which the requirement is just met.
+    pub const REQUIREMENT: [&str; 10] = [
+        "t_s",
+        "source",
+        "radius_m",
+        "derivative_m",
+        "part_ratio",
+        "may_grow_ratio",
+        "parameter",
+        "unit",
+        "value",
+        "limit",
+    ];
+    /// `monte_carlo.csv`: a figure (`way`) of the errors of all runs, as it was found (`source` is `estimate`), the ends of its
+    /// 99 % confidence interval (`low`, `high`), and what covariance predicts (`predicted`). `mean`, `sd` and `rms` are of the
+    /// errors with their sign, `q50` to `q99` the magnitudes that 50 % to 99 % of the runs do not exceed; of the horizontal
+    /// distance `sd` and `rms` are roots of the sum of both variances or mean squares, and `mean` is the length of the mean.
+    pub const MONTE_CARLO: [&str; 13] = [
+        "t_s",
+        "source",
+        "way",
+        "dn_m",
+        "de_m",
+        "dd_m",
+        "dv_n_mps",
+        "dv_e_mps",
+        "dv_d_mps",
+        "phi_n_rad",
+        "phi_e_rad",
+        "phi_d_rad",
+        "horizontal_m",
+    ];
+    /// `exceedance.csv`: how many runs are beyond a threshold (`source`), their share, and its 99 % confidence interval.
+    pub const EXCEEDANCE: [&str; 7] = [
+        "t_s",
+        "source",
+        "beyond_count",
+        "runs_count",
+        "beyond_ratio",
+        "beyond_low_ratio",
+        "beyond_high_ratio",
+    ];
+    /// `nees.csv` of a Monte Carlo: normalized error squared against the predicted covariance, a degree of freedom, with
+    /// its 99 % band, and how many degrees of freedom a run has.
+    pub const RUNS_NEES: [&str; 5] =
+        ["t_s", "nees_ratio", "nees_low_ratio", "nees_high_ratio", "freedom_count"];
     /// `sigmas.csv` of a navigation with a filter: its own standard deviations of position, velocity and attitude.
     pub const SIGMAS: [&str; 10] = [
         "t_s",
@@ -326,8 +374,8 @@ pub mod columns {
     pub const STATES: [&str; 4] = ["t_s", "source", "estimate", "sigma"];
     /// `nees.csv`: normalized error squared of the navigation errors against the reference, a degree of freedom.
     pub const NEES: [&str; 2] = ["t_s", "nees_ratio"];
-    /// `way` of `errors.csv`: of a drift study, then of an alignment; then of a budget (with `exact`).
-    pub const WAYS: [&str; 14] = [
+    /// `way` of `errors.csv`: of a drift study, then of an alignment; then of a budget (with `exact`) and of a Monte Carlo.
+    pub const WAYS: [&str; 20] = [
         "nonlinear",
         "half_difference",
         "linear",
@@ -342,6 +390,12 @@ pub mod columns {
         "columns",
         "adjoint",
         "monte_carlo",
+        "mean",
+        "sd",
+        "q50",
+        "q90",
+        "q95",
+        "q99",
     ];
 
     /// Whether a column holds counts, which are whole numbers.

@@ -38,6 +38,7 @@ impl Document {
             StudyKind::Align => Study::Align(self.align_study(w)?),
             StudyKind::Simulate => Study::Simulate(Box::new(self.simulate(w)?)),
             StudyKind::Budget => Study::Budget(Box::new(self.budget(w)?)),
+            StudyKind::MonteCarlo => Study::MonteCarlo(Box::new(self.monte_carlo(w)?)),
             StudyKind::Allan => Study::Allan(self.log(self.required_log(w, "allan")?)?),
         };
         let rate = match &study {
@@ -49,6 +50,7 @@ impl Document {
             Study::Align(s) => s.rate(),
             Study::Simulate(s) => s.imu.rate,
             Study::Budget(s) => s.imu.rate,
+            Study::MonteCarlo(s) => s.imu.rate,
         };
         let output = self.output(w.output.as_ref(), rate)?;
         self.whole_updates(w, &study, &output, rate)?;
@@ -67,25 +69,29 @@ impl Document {
         fn node<T>(key: &Option<At<T>>) -> Option<NodeId> {
             key.as_ref().map(|k| k.node)
         }
-        use StudyKind::{Align, Allan, Budget, Drift, Imu, Navigate, Simulate};
-        let keys: [(Option<NodeId>, &[StudyKind]); 13] = [
-            (node(&w.motion), &[Imu, Drift, Simulate, Align, Budget]),
-            (node(&w.imu), &[Imu, Drift, Simulate, Align, Budget]),
+        use StudyKind::{Align, Allan, Budget, Drift, Imu, MonteCarlo, Navigate, Simulate};
+        let keys: [(Option<NodeId>, &[StudyKind]); 14] = [
+            (node(&w.motion), &[Imu, Drift, Simulate, Align, Budget, MonteCarlo]),
+            (node(&w.imu), &[Imu, Drift, Simulate, Align, Budget, MonteCarlo]),
             (node(&w.gravity), &[Simulate]),
-            (node(&w.aiding), &[Simulate]),
+            (node(&w.aiding), &[Simulate, Budget]),
             (node(&w.initial_errors), &[Drift]),
-            (node(&w.mechanization), &[Drift, Navigate, Align, Budget]),
+            (node(&w.mechanization), &[Drift, Navigate, Align, Budget, MonteCarlo]),
             (node(&w.log), &[Navigate, Allan, Align]),
             (node(&w.align), &[Navigate]),
             (node(&w.filter), &[Navigate]),
             (node(&w.alignment), &[Align]),
             (node(&w.budget), &[Budget]),
+            (node(&w.monte_carlo), &[MonteCarlo]),
             (w.output.as_ref().and_then(|output| node(&output.value.allan)), &[Imu]),
             (w.output.as_ref().and_then(|output| node(&output.value.logs)), &[Simulate]),
         ];
         for (node, studies) in keys {
             if let Some(node) = node.filter(|_| !studies.contains(&w.study.value)) {
-                let study = format!("{:?}", w.study.value).to_lowercase();
+                let study = match w.study.value {
+                    MonteCarlo => "monte_carlo".into(),
+                    study => format!("{study:?}").to_lowercase(),
+                };
                 return Err(self
                     .diagnostic(Spot::Node(node), format!("the study `{study}` does not use this key"))
                     .help("take it out, or choose another study"));
@@ -289,6 +295,7 @@ impl Document {
         let (mechanization, samples) = match study {
             Study::Drift(drift) => (&drift.mechanization, Some(drift.samples)),
             Study::Budget(budget) => (&budget.mechanization, Some(budget.samples)),
+            Study::MonteCarlo(study) => (&study.mechanization, Some(study.samples)),
             Study::Navigate(navigate) => {
                 let last = navigate.duration.map(|duration| (duration * rate).round() as u64);
                 (&navigate.mechanization, last)

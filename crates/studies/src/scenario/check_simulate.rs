@@ -66,7 +66,7 @@ impl Document {
         Ok(Simulate { motion, start, gravity, samples, imu, aiding })
     }
 
-    fn aiding(&self, w: &w::Aiding, rate: f64) -> Result<Aiding, Diagnostic> {
+    pub(super) fn aiding(&self, w: &w::Aiding, rate: f64) -> Result<Aiding, Diagnostic> {
         let aid = |aid: &Option<At<w::Aid>>, unit, arm| {
             aid.as_ref().map(|aid| self.aid(aid, unit, arm, rate)).transpose()
         };

@@ -16,6 +16,7 @@ mod expect;
 mod imu_study;
 mod instrument;
 mod load;
+mod monte_carlo;
 mod overrides;
 mod quantity;
 mod readout;
@@ -36,7 +37,8 @@ pub use aided::valid::{Aided, Condition, ConditionKind, Detect, Measured, Measur
 pub use alignment::valid::{
     AlignStudy, Coarse, FilterSettings, Knock, Method, MethodKind, Origin, Strategy, StrategyKind, Velocity,
 };
-pub use budget::valid::{Budget, Requirement};
+pub use budget::valid::{Budget, BudgetFilter, Requirement};
+pub use monte_carlo::valid::{MonteCarlo, RunFigure, Threshold, Until};
 pub use schema::json_schema;
 pub use sources::process_example;
 pub use valid::{

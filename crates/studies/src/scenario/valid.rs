@@ -10,6 +10,7 @@ use schuler_strapdown::Coning;
 use super::aided::valid::Aided;
 use super::alignment::valid::AlignStudy;
 use super::budget::valid::Budget;
+use super::monte_carlo::valid::MonteCarlo;
 use super::valid_motion::{Motion, Simulate};
 use crate::log::{Content, LogSpec};
 
@@ -51,6 +52,8 @@ pub enum Study {
     Simulate(Box<Simulate>),
     /// The share of each error source.
     Budget(Box<Budget>),
+    /// Many runs of the full navigator.
+    MonteCarlo(Box<MonteCarlo>),
 }
 
 impl Scenario {
@@ -61,6 +64,7 @@ impl Scenario {
             Study::Drift(drift) => Some(&drift.mechanization),
             Study::Align(align) => Some(&align.mechanization),
             Study::Budget(budget) => Some(&budget.mechanization),
+            Study::MonteCarlo(study) => Some(&study.mechanization),
             Study::Navigate(navigate) => Some(&navigate.mechanization),
             Study::Aided(aided) => Some(&aided.mechanization),
         }
@@ -88,6 +92,7 @@ impl Study {
             Study::Align(_) => "align",
             Study::Simulate(_) => "simulate",
             Study::Budget(_) => "budget",
+            Study::MonteCarlo(_) => "monte_carlo",
         }
     }
 }

@@ -8,6 +8,7 @@ use super::{
     alignment::written::Alignment,
     budget::written::Budget,
     de::At,
+    monte_carlo::written::MonteCarlo,
     schema::{Scalar, Sources},
     written_motion::{Aiding, Motion},
 };
@@ -53,6 +54,8 @@ pub struct Scenario {
     pub alignment: Option<At<Alignment>>,
     /// What an error budget asks.
     pub budget: Option<At<Budget>>,
+    /// How many runs there are, and what is asked of them.
+    pub monte_carlo: Option<At<MonteCarlo>>,
     /// What is written, and how often.
     pub output: Option<At<Output>>,
     /// What the result is expected to be; checked by `run`.
@@ -80,6 +83,8 @@ pub enum StudyKind {
     Simulate,
     /// The share of each error source in the errors of the navigator, several ways side by side.
     Budget,
+    /// Many runs of the full navigator, each with its own draws, beside the covariance.
+    MonteCarlo,
 }
 
 /// Place, time, attitude and velocity at t = 0.

@@ -96,13 +96,13 @@ impl Aids {
 }
 
 /// Position of the antenna at `arm` (m, body axes), moved by `noise` (m, north-east-down).
-fn position(pva: &Pva, arm: [f64; 3], noise: Vec3<T>) -> Geodetic {
+pub(crate) fn position(pva: &Pva, arm: [f64; 3], noise: Vec3<T>) -> Geodetic {
     let offset = pva.c_tb * Vec3::claim(arm) + noise;
     Geodetic::from_ecef(pva.position.ecef_of_local(offset))
 }
 
 /// Velocity of the antenna: that of the IMU and omega_eb × arm.
-fn velocity(moment: &Moment, arm: [f64; 3]) -> Vec3<T> {
+pub(crate) fn velocity(moment: &Moment, arm: [f64; 3]) -> Vec3<T> {
     let Pva { v_t, c_tb, .. } = moment.pva;
     v_t + c_tb * moment.omega_eb_b.cross(Vec3::claim(arm))
 }

@@ -1,6 +1,6 @@
 //! The simulate study: a motion, what a perfect and a real IMU deliver along it, and measurements beside them.
 
-mod aiding;
+pub(crate) mod aiding;
 mod figures;
 mod kf_gins;
 mod recorded;

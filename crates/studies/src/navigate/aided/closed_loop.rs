@@ -44,9 +44,13 @@ impl<const N: usize> ClosedLoop<N> {
         if let Some(p) = aided.gate {
             filter.gate = Gate::vector(p);
         }
-        let gravity = aided.mechanization.gravity;
+        Ok(ClosedLoop::with(filter, pva, aided.mechanization.gravity, vertical))
+    }
+
+    /// Starts at `pva` with a filter at its start.
+    pub fn with(filter: Filter<N>, pva: &Pva, gravity: Gravity, vertical: Vertical) -> Self {
         let accumulator = Accumulator::new(filter.model(), ErrorDynamics { gravity, vertical }, pva);
-        Ok(ClosedLoop {
+        ClosedLoop {
             errors: SensorErrors::new(&filter),
             stale: false,
             filter,
@@ -56,7 +60,7 @@ impl<const N: usize> ClosedLoop<N> {
             gravity,
             vertical,
             seen: (Increments { dtheta: Vec3::ZERO, dv: Vec3::ZERO }, 1.0),
-        })
+        }
     }
 
     /// Goes on by the increments measured over `dt` (s).

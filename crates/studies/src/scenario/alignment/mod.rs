@@ -122,7 +122,11 @@ impl Document {
     }
 
     /// A positive time as a whole number of samples.
-    fn whole_samples(&self, written: &super::written::Quantity, rate: f64) -> Result<u64, Diagnostic> {
+    pub(super) fn whole_samples(
+        &self,
+        written: &super::written::Quantity,
+        rate: f64,
+    ) -> Result<u64, Diagnostic> {
         let samples = self.quantity(written, Unit::SECOND, Range::Positive)? * rate;
         if samples.round() < 1.0 || (samples - samples.round()).abs() > 1e-6 * samples.max(1.0) {
             return Err(self

@@ -1,5 +1,8 @@
 //! `study: budget`: from the written to the valid form.
 
+mod filter;
+#[cfg(test)]
+mod tests;
 pub(super) mod valid;
 pub(super) mod written;
 
@@ -13,7 +16,7 @@ use super::{
     written::Scenario,
     written_motion,
 };
-use crate::Diagnostic;
+use crate::{Diagnostic, trajectory::Trajectory};
 use valid::{Budget, Requirement};
 
 /// Runs of one budget; beyond it a typing error.
@@ -50,7 +53,7 @@ impl Document {
         let trajectory = valid_motion
             .trajectory(&start, mechanization.gravity, samples, 1.0 / imu.rate)
             .map_err(|fault| self.impossible(motion, &fault))?;
-        let end = trajectory.and_then(|trajectory| trajectory.duration()).unwrap_or(f64::INFINITY);
+        let end = trajectory.as_ref().and_then(|trajectory| trajectory.duration()).unwrap_or(f64::INFINITY);
         if duration > end * (1.0 + 1e-9) {
             let node = w.duration.as_ref().map_or(motion.node, |d| d.node);
             return Err(self
@@ -58,6 +61,7 @@ impl Document {
                 .expected(format!("{end:.3} s or less"))
                 .found(format!("{duration} s")));
         }
+        self.keeps_height(w, &mechanization, trajectory.as_deref(), duration)?;
         let block = w.budget.as_ref().map(|b| &b.value);
         let initial_sigmas = block.and_then(|b| b.initial_sigmas.as_ref());
         let sigmas = self.initial_errors(initial_sigmas)?;
@@ -68,6 +72,11 @@ impl Document {
                 .diagnostic(Spot::Node(at.node), "a standard deviation must not be negative")
                 .found(initial.name));
         }
+        let alignment = match block.and_then(|b| b.alignment.as_ref()) {
+            Some(alignment) => self.budget_alignment(alignment, &start, &sigmas, imu.rate)?,
+            None => 0,
+        };
+        let filter = self.budget_filter(w, &imu, &sigmas, &mechanization)?;
         let runs = self.runs(block.and_then(|b| b.runs.as_ref()), &imu)?;
         let requirement = block.and_then(|b| b.requirement.as_ref());
         Ok(Budget {
@@ -75,10 +84,13 @@ impl Document {
             start,
             samples,
             initial_sigmas: sigmas,
+            alignment,
+            filter,
             mechanization,
             requirement: requirement.map(|r| self.requirement(w, r, duration, imu.rate)).transpose()?,
             imu,
             runs,
+            runs_of_each: block.and_then(|b| b.runs_of) != Some(written::RunsOf::Total),
         })
     }
 
@@ -94,6 +106,36 @@ impl Document {
             }
             _ => Ok(()),
         }
+    }
+
+    /// A vertical channel that is held, or slaved to the height of the start, goes with a motion that keeps its height.
+    fn keeps_height(
+        &self,
+        w: &Scenario,
+        how: &Mechanization,
+        trajectory: Option<&dyn Trajectory>,
+        duration: f64,
+    ) -> Result<(), Diagnostic> {
+        /// Where the height is looked at, and by how much it may differ, m.
+        const MOMENTS: u32 = 200;
+        const LEVEL: f64 = 1.0;
+        let Some(trajectory) = trajectory.filter(|_| how.vertical != Vertical::Free) else { return Ok(()) };
+        let height = |k: u32| trajectory.at(duration * f64::from(k) / f64::from(MOMENTS)).position.h;
+        let first = height(0);
+        let largest = (1..=MOMENTS).map(|k| (height(k) - first).abs()).fold(0.0, f64::max);
+        if largest <= LEVEL {
+            return Ok(());
+        }
+        let node = w.mechanization.as_ref().map_or(self.root(), |m| m.node);
+        Err(self
+            .diagnostic(
+                Spot::Node(node),
+                "the height changes, but the navigator takes it to stay: its error would be the climb",
+            )
+            .expected(
+                "`vertical: free`, with a height in `aiding` where it lasts long; or a motion at one height",
+            )
+            .found(format!("{largest:.1} m away from the height of the start")))
     }
 
     /// Runs draw what has a standard deviation: a fixed value has no share of what they scatter.

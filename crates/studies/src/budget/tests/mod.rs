@@ -1,14 +1,17 @@
 //! The ways of a budget against each other, against closed forms and against independent tables.
 
+mod aided;
+mod alignment;
+mod radius;
+
 use std::f64::consts::PI;
 
-use nalgebra::Matrix2;
 use schuler_frames::{Euler, Geodetic, Gravity};
 use schuler_imu::{Instrument, Source as Imu, Spec, Stream, Value};
 use schuler_strapdown::Coning;
 use schuler_strapdown::filter::{Form, Model, NavStates, Propagation};
 
-use super::radius::{derivative, horizontal, may_grow, radius};
+use super::radius::horizontal;
 use super::scene::Scene;
 use super::source::{Nine, sources};
 use super::{Contribution, TOTAL, Way, linear, monte_carlo, report};
@@ -30,6 +33,8 @@ fn budget(lat_deg: f64, rate: f64, duration: f64, spec: Spec, initial_sigmas: Ve
         samples: (duration * rate).round() as u64,
         imu: scenario::Imu { rate, spec, temperature: None },
         initial_sigmas,
+        alignment: 0,
+        filter: None,
         mechanization: Mechanization {
             frame: Frame::T,
             vertical: Vertical::Held,
@@ -38,6 +43,7 @@ fn budget(lat_deg: f64, rate: f64, duration: f64, spec: Spec, initial_sigmas: Ve
         },
         requirement: None,
         runs: 0,
+        runs_of_each: true,
     }
 }
 
@@ -110,7 +116,7 @@ fn the_one_mile_class_meets_its_table() {
     initial.truncate(3);
     let study = budget(45.0, 1.0, 36_000.0, spec, initial);
     let scene = Scene::new(&study, Some(600.0));
-    let all = linear(&scene, &sources(&study));
+    let all = linear(&scene, &sources(&study)).unwrap();
     for way in [Way::Covariance, Way::Columns, Way::Exact] {
         let total = said(&all, TOTAL, way);
         for (t, expected) in
@@ -129,7 +135,7 @@ fn ways_at_rest_agree_with_the_closed_form() {
     for lat in [0.0, 45.0, -75.0] {
         let study = budget(lat, 1.0, 36_000.0, mixed(1.0), initial(1.0));
         let scene = Scene::new(&study, Some(1800.0));
-        let all = linear(&scene, &sources(&study));
+        let all = linear(&scene, &sources(&study)).unwrap();
         let (mut exact, mut adjoint) = (0, 0);
         for c in &all {
             let covariance = c.of(Way::Covariance).unwrap();
@@ -158,7 +164,7 @@ fn ways_at_rest_agree_with_the_closed_form() {
 fn rows_sum_to_one_covariance_of_everything() {
     let study = budget(45.0, 1.0, 21_600.0, mixed(1.0), initial(1.0));
     let scene = Scene::new(&study, Some(3600.0));
-    let all = linear(&scene, &sources(&study));
+    let all = linear(&scene, &sources(&study)).unwrap();
     let model = Model::<48>::new(Form::Phi, NavStates::ALL, &study.imu.spec).unwrap();
     let mut sigmas = [0.0f64; 9];
     for source in sources(&study) {
@@ -185,55 +191,6 @@ fn rows_sum_to_one_covariance_of_everything() {
         .collect();
     let x = apart(&total[1..], &together);
     assert!(x < 1e-9, "{x:e}");
-}
-
-/// Radii of the normal distribution: circle (1.177410, 2.447747 standard deviations: √(2 ln 2), √(-2 ln 0.05)), line
-/// (0.674490, 1.959964), and between them a ratio of 0.5, of which Weingarten and Di Donato (A table of generalized circular
-/// error, Math. Comp. 15, 1961) is the published kind of table: here against plain integration of the density.
-#[test]
-fn radii_of_the_normal_distribution() {
-    let plane = |a: f64, b: f64| Matrix2::new(a * a, 0.0, 0.0, b * b);
-    for (p, r) in [(0.5, (2.0 * 2f64.ln()).sqrt()), (0.95, (-2.0 * 0.05f64.ln()).sqrt())] {
-        assert!((radius(&plane(3.0, 3.0), p) / (3.0 * r) - 1.0).abs() < 1e-12);
-    }
-    for (p, r) in [(0.5, 0.674_489_750_196_081_7), (0.95, 1.959_963_984_540_054)] {
-        for line in [plane(2.0, 0.0), Matrix2::new(2.0, 2.0, 2.0, 2.0)] {
-            assert!((radius(&line, p) / (2.0 * r) - 1.0).abs() < 1e-7, "{p}: {}", radius(&line, p));
-        }
-    }
-    let (a, b, r) = (1.0, 0.5, 1.3);
-    let n = 4000;
-    let inside: f64 = (0..n)
-        .map(|k| {
-            // Along x = r sin u the density, across it the exact probability of |y| < r cos u.
-            let (s, c) = libm::sincos((k as f64 + 0.5) / n as f64 * PI / 2.0);
-            let along = (-0.5 * (r * s / a).powi(2)).exp() / (a * (2.0 * PI).sqrt()) * r * c;
-            2.0 * along * libm::erf(r * c / (b * 2f64.sqrt())) * PI / 2.0 / n as f64
-        })
-        .sum();
-    let found = radius(&plane(a, b), inside);
-    assert!((found - r).abs() < 1e-6, "{found} {r}");
-}
-
-/// A radius is of first degree in the sizes: its derivatives by them sum to it. And each is the slope of the radius.
-#[test]
-fn derivatives_sum_to_the_radius() {
-    let parts = [
-        Matrix2::new(4.0, 1.0, 1.0, 1.0),
-        Matrix2::new(0.5, -0.5, -0.5, 0.5),
-        Matrix2::new(1.0, 0.0, 0.0, 9.0),
-    ];
-    let whole: Matrix2<f64> = parts.iter().sum();
-    let r = radius(&whole, 0.95);
-    let slopes = parts.map(|part| derivative(&whole, &part, r));
-    assert!((slopes.iter().sum::<f64>() / r - 1.0).abs() < 1e-12);
-    for (part, slope) in parts.iter().zip(slopes) {
-        let at = |a: f64| radius(&(whole - part + part * (a * a)), 0.95);
-        let difference = (at(1.001) - at(0.999)) / 0.002;
-        assert!((slope / difference - 1.0).abs() < 1e-5, "{slope} {difference}");
-        let factor = may_grow(&whole, part, 0.95, 1.5 * r);
-        assert!((at(factor) / (1.5 * r) - 1.0).abs() < 1e-9, "{factor}");
-    }
 }
 
 /// Columns against half the difference of full runs of the opposite sign: 1e-6 of the largest response.
@@ -268,7 +225,8 @@ fn columns_meet_half_differences() {
         let stream = Stream { seed: 1, run: 0 };
         let [plus, minus] = [1.0, -1.0].map(|sign| {
             let initial = source.initial().map(|x| sign * x);
-            monte_carlo::run(&scene, &track, &value.scaled(sign), &initial, stream).unwrap()
+            let spec = &value.scaled(sign);
+            monte_carlo::Run { track: &track, sources: &[], spec, initial, stream }.navigate(&scene).unwrap()
         });
         for k in [0, 1, 3, 4, 6, 7, 8] {
             let group = k / 3 * 3..k / 3 * 3 + 3;
@@ -307,7 +265,7 @@ fn runs_meet_the_covariance() {
     let scene = Scene::new(&study, Some(1800.0));
     let track = monte_carlo::Track::new(&scene);
     let list = sources(&study);
-    let all = linear(&scene, &list);
+    let all = linear(&scene, &list).unwrap();
     let sigma = (2.0 / study.runs as f64).sqrt();
     let (mut outside, mut judged) = (0, 0);
     let band = report::band(study.runs);
@@ -413,18 +371,23 @@ fn ways_agree_along_a_flight() {
     study.motion = Motion::GreatCircle(250.0, scenario::Way::Heading(0.7));
     study.start.position.h = 10_000.0;
     let scene = Scene::new(&study, Some(100.0));
-    let all = linear(&scene, &sources(&study));
+    let all = linear(&scene, &sources(&study)).unwrap();
     for c in all.iter().filter(|c| c.name != TOTAL) {
         let x = apart(c.of(Way::Covariance).unwrap(), c.of(Way::Columns).unwrap());
         assert!(x < 1e-5, "{}: {x:e}", c.name);
-        assert!(c.of(Way::Exact).is_none() && c.of(Way::Adjoint).is_none());
+        assert!(c.of(Way::Exact).is_none());
+        let covariance = c.of(Way::Covariance).unwrap();
+        let x = apart(c.of(Way::Adjoint).unwrap(), &covariance[covariance.len() - 1..]);
+        assert!(x < 2e-9, "{}: adjoint {x:e}", c.name);
     }
     let track = monte_carlo::Track::new(&scene);
     let fixed = source(Gyro, "scale_factor", "constant", "value", Value::Each(&[0.0, 1e-5, 0.0]));
     let fixed = Spec::from_sources([fixed]).unwrap();
     let [plus, minus] = [1.0, -1.0].map(|sign| {
         let stream = Stream { seed: 1, run: 0 };
-        monte_carlo::run(&scene, &track, &fixed.scaled(sign), &[0.0; 9], stream).unwrap()
+        let spec = &fixed.scaled(sign);
+        let run = monte_carlo::Run { track: &track, sources: &[], spec, initial: [0.0; 9], stream };
+        run.navigate(&scene).unwrap()
     });
     let last = |x: &[[f64; 9]], k: usize| x.last().unwrap()[k];
     let p = said(&all, "gyro.scale_factor.constant.y", Way::Columns).last().unwrap();
