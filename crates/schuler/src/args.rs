@@ -131,7 +131,7 @@ pub struct PlanArgs {
 
 The result is that of a scenario with `study: allan`.")]
 pub struct AllanArgs {
-    /// The log: CSV or npy, either also gzipped; looked up in this folder, then in that of `--data`.
+    /// The log: CSV or npy, either also gzipped, or Parquet; looked up in this folder, then in that of `--data`.
     pub log: String,
     /// Samples a second: 100Hz.
     #[arg(long, value_name = "QUANTITY")]

@@ -92,8 +92,6 @@ fn faults_say_file_line_and_column() {
         let found = complaint(&imu, text);
         assert!(found.starts_with(words), "{words}\n{found}");
     }
-    let parquet = complaint(&imu, "PAR1 and so on");
-    assert!(parquet.starts_with("log.txt: a Parquet file, which is not read as a log"), "{parquet}");
     // Further columns and tabs are fine.
     for text in
         ["1.0 1 2 3 4 5 6 7\n1.005 1 2 3 4 5 6 8 \n", "1.0\t1\t2\t3\t4\t5\t6\n", "1.0, 1, 2, 3, 4, 5, 6\n"]

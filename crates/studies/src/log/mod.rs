@@ -34,6 +34,9 @@ mod npy_header;
 #[cfg(test)]
 mod npy_tests;
 mod number;
+mod parquet_rows;
+#[cfg(test)]
+mod parquet_tests;
 mod reader;
 mod rows;
 mod slots;

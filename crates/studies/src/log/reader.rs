@@ -10,6 +10,7 @@ use schuler_strapdown::Increments;
 use super::bytes::Counted;
 use super::clock::{Clock, Week};
 use super::npy::{self, NpyRows};
+use super::parquet_rows::{self, ParquetRows};
 use super::slots::{SLOTS, TIME, Wanted, wanted};
 use super::text::TextRows;
 use super::{Content, LogSpec, fault};
@@ -45,6 +46,7 @@ pub struct LogReader {
 pub(super) enum Rows {
     Text(TextRows),
     Npy(NpyRows),
+    Parquet(ParquetRows),
 }
 
 /// Size of the buffers on both sides of the decompression.
@@ -65,11 +67,9 @@ impl Rows {
             _ => Box::new(bytes),
         };
         Ok(match plain.fill_buf().map_err(failed)? {
-            [b'P', b'A', b'R', b'1', ..] => {
-                return Err(Diagnostic::new(file, "a Parquet file, which is not read as a log")
-                    .expected("text, or a NumPy array (npy); either also gzipped")
-                    .help("with pandas: `read_parquet(FILE).to_csv(LOG, index=False)`")
-                    .into());
+            // It is read from its end on, which a stream does not have.
+            first if first.starts_with(parquet_rows::FIRST) => {
+                Rows::Parquet(ParquetRows::open(file, wanted)?)
             }
             [npy::FIRST, ..] => Rows::Npy(NpyRows::new(file, plain, wanted)?),
             _ => Rows::Text(TextRows::new(file, plain, wanted)?),
@@ -81,6 +81,7 @@ impl Rows {
         match self {
             Rows::Text(rows) => rows.advance(),
             Rows::Npy(rows) => rows.advance(),
+            Rows::Parquet(rows) => rows.advance(),
         }
     }
 
@@ -89,6 +90,7 @@ impl Rows {
         match self {
             Rows::Text(rows) => rows.titles.len(),
             Rows::Npy(rows) => rows.titles.len(),
+            Rows::Parquet(rows) => rows.titles.len(),
         }
     }
 
@@ -97,6 +99,7 @@ impl Rows {
         match self {
             Rows::Text(rows) => rows.fault(slot, problem).found(found),
             Rows::Npy(rows) => rows.fault(slot, problem).found(format!("{found}, in {}", rows.place(slot))),
+            Rows::Parquet(rows) => rows.fault(slot, problem).found(format!("{found}, in {}", rows.place())),
         }
     }
 }
@@ -111,11 +114,12 @@ pub fn titles(file: &Path) -> Result<Vec<String>, Error> {
     Ok(match Rows::new(file, bytes, &[])? {
         Rows::Text(rows) => rows.titles,
         Rows::Npy(rows) => rows.titles,
+        Rows::Parquet(rows) => rows.titles,
     })
 }
 
 impl LogReader {
-    /// Opens the log `file`; gzip and npy are recognised by their first bytes.
+    /// Opens the log `file`; gzip, npy and Parquet are recognised by their first bytes.
     ///
     /// # Errors
     /// [`Error::Read`] if the file cannot be opened, [`Error::Input`] if it is empty, a damaged gzip stream, an array

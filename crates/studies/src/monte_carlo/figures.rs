@@ -17,9 +17,8 @@ pub fn figures(
     predicted: Option<&[Predicted]>,
 ) -> Vec<(String, Figure)> {
     let conditions = format!(
-        "{} runs ({} shown), {}, latitude {:.4}°, {} Hz",
+        "{} runs, {}, latitude {:.4}°, {} Hz",
         statistics.runs,
-        statistics.shown.len(),
         scene.study.motion.words(),
         scene.study.start.position.lat.to_degrees(),
         scene.study.imu.rate
@@ -68,10 +67,12 @@ fn cloud(
     let shown = quantity.shown(largest);
     let time = |row: usize| scene.time(scene.rows[row]);
     let mut panel = Panel::new(Axis::linear(format!("{name} ({})", shown.symbol)));
+    let some = format!("{} of the runs", statistics.shown.len());
     for (run, errors) in statistics.shown.iter().enumerate() {
         let line = rows.clone().map(|row| [time(row), errors[row][k] * shown.per_si]);
-        panel = panel
-            .with(Series::line(if run == 0 { "runs" } else { "" }, line).style(Style::Line).colour(CLOUD));
+        panel = panel.with(
+            Series::line(if run == 0 { some.as_str() } else { "" }, line).style(Style::Line).colour(CLOUD),
+        );
     }
     for (sign, first) in [(3.0, true), (-3.0, false)] {
         let label = |text: &str| if first { text.to_string() } else { String::new() };
@@ -98,6 +99,7 @@ fn radii(scene: &Scene, statistics: &Statistics) -> Panel {
     let largest = rows.clone().map(|row| at(row, q99).high).fold(0.0, f64::max);
     let shown = Quantity::Length.shown(largest);
     let mut panel = Panel::new(Axis::linear(format!("horizontal distance ({})", shown.symbol)));
+    let mut named = false;
     for (k, (share, label)) in
         [(0.5, "50 % of the runs"), (0.9, "90 %"), (0.95, "95 %"), (0.99, "99 %")].into_iter().enumerate()
     {
@@ -107,7 +109,9 @@ fn radii(scene: &Scene, statistics: &Statistics) -> Panel {
         panel = panel.with(Series::line(label, line).colour(Colour::palette(k)));
         for end in [|e: &super::statistics::Estimate| e.low, |e: &super::statistics::Estimate| e.high] {
             let line = all.iter().map(|(row, e)| [time(*row), end(e) * shown.per_si]);
-            panel = panel.with(Series::line("", line).style(Style::Dotted).colour(Colour::palette(k)));
+            let label = if named { "" } else { "99 % confidence" };
+            panel = panel.with(Series::line(label, line).style(Style::Dotted).colour(Colour::palette(k)));
+            named = true;
         }
     }
     panel
