@@ -39,8 +39,14 @@ pub(crate) struct Place {
 }
 
 /// Coefficients of all sources in time.
+///
+/// Each array fills whole lines of the cache, and begins with one: lanes that lie across two of them are read twice.
 #[derive(Clone, Debug)]
+#[repr(C, align(64))]
 pub(crate) struct Bank {
+    normals: [[f64; STEPS]; MAX_DRAWS],
+    first: First,
+    second: Second,
     pub level: Level,
     key: Key,
     constants: usize,
@@ -49,13 +55,10 @@ pub(crate) struct Bank {
     seconds: usize,
     constant: [f64; MAX_CONSTANT],
     white: [f64; MAX_WHITE],
-    first: First,
-    second: Second,
     /// Whether the innovations are those of the settled covariances of the state.
     settled: bool,
     draws: usize,
     addresses: [u64; MAX_DRAWS],
-    normals: [[f64; STEPS]; MAX_DRAWS],
     /// Which eight steps `normals` is for.
     octet: Option<u64>,
     /// Numbers of the steps that are prepared, each in the row of its place among eight.

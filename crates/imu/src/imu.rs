@@ -19,7 +19,10 @@ use crate::{Component, Instrument, Motion, Spec, Stream, Truth};
 /// interval mean, and the step may be of any length. The true input is taken as constant over the
 /// interval where a term multiplies it.
 #[derive(Clone, Debug)]
+#[repr(C, align(64))]
 pub struct Imu {
+    /// The sources' errors per instrument and axis.
+    errors: [[[f64; STEPS]; 3]; 2],
     spec: Spec,
     bank: Bank,
     /// Its processes may be ahead of its step: see [`Bank::settle`].
@@ -27,8 +30,6 @@ pub struct Imu {
     sums: Sums,
     /// What happened in the last steps, each in its row.
     inputs: Inputs,
-    /// The sources' errors per instrument and axis.
-    errors: [[[f64; STEPS]; 3]; 2],
     chains: Option<[Chain; 2]>,
     /// Readout's part of the error of the last sample.
     readout_errors: [[f64; 3]; 2],

@@ -13,8 +13,8 @@ use crate::random::STEPS;
 
 /// First-order parts, of each number those of all parts; what is not in use is zero.
 #[derive(Clone, Debug)]
+#[repr(C, align(64))]
 pub(crate) struct First {
-    pub count: usize,
     phi: [f64; MAX_FIRST],
     /// Mean and noise of its step, and the factor on the coefficient.
     step: [(f64, [f64; 3], f64); MAX_FIRST],
@@ -24,13 +24,13 @@ pub(crate) struct First {
     k: [f64; MAX_FIRST],
     /// The state before each step.
     before: [[f64; STEPS]; MAX_FIRST],
+    pub count: usize,
 }
 
 /// Second-order parts.
 #[derive(Clone, Debug)]
+#[repr(C, align(64))]
 pub(crate) struct Second {
-    pub count: usize,
-    step: [Step; MAX_SECOND],
     gain: [f64; MAX_SECOND],
     /// With the factor `gain` on the coefficient.
     mean: [[f64; 2]; MAX_SECOND],
@@ -38,6 +38,8 @@ pub(crate) struct Second {
     k: [[f64; MAX_SECOND]; 2],
     phi: [[[f64; MAX_SECOND]; 2]; 2],
     before: [[[f64; STEPS]; MAX_SECOND]; 2],
+    step: [Step; MAX_SECOND],
+    pub count: usize,
 }
 
 impl First {

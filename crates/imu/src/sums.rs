@@ -14,12 +14,13 @@ const MAX_GROUPS: usize = 2 * TERMS.len();
 
 /// Interval means of the coefficients of each term, for each of eight steps.
 #[derive(Clone, Debug)]
+#[repr(C, align(64))]
 pub(crate) struct Sums {
+    sums: [[[f64; STEPS]; MAX_COEFFICIENTS]; MAX_GROUPS],
     pub level: Level,
     /// Those of the gyroscopes, then those of the accelerometers.
     groups: [Option<Group>; MAX_GROUPS],
     ranges: [Range<usize>; 2],
-    sums: [[[f64; STEPS]; MAX_COEFFICIENTS]; MAX_GROUPS],
     /// Coefficients that change, and the sum of their constant sources.
     moving: [(u16, f64); MAX_MOVING],
     len: usize,

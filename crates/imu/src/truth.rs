@@ -130,6 +130,7 @@ impl Input {
 
 /// Inputs of eight steps, of each number its values in the steps; both instruments see the same.
 #[derive(Clone, Debug)]
+#[repr(C, align(64))]
 pub(crate) struct Inputs {
     omega: [[f64; STEPS]; 3],
     f: [[f64; STEPS]; 3],
