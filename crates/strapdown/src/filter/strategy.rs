@@ -7,12 +7,14 @@
 //! **Windup.** Fading multiplies P along what no measurement observes, at every step, without end: 1.01 at 1 Hz is a factor
 //! of 20 in standard deviation after ten minutes. So inflation is capped by [`Filter::cap`], on by default.
 
+mod batch;
 mod fading;
 mod forgetting;
 mod noise;
 mod strong_tracking;
 mod window;
 
+pub use batch::BatchNoise;
 pub use fading::{AdaptiveFading, ExponentialFading, MultipleFading};
 pub use forgetting::VariableForgetting;
 pub use noise::{ResidualNoise, SageHusa};

@@ -3,8 +3,8 @@
 use nalgebra::SMatrix;
 use schuler_strapdown::filter::Outcome;
 use schuler_strapdown::filter::strategy::{
-    AdaptiveFading, ExponentialFading, Moment, MultipleFading, ResidualNoise, SageHusa, Square3, Strategy,
-    StrongTracking, VariableForgetting,
+    AdaptiveFading, BatchNoise, ExponentialFading, Moment, MultipleFading, ResidualNoise, SageHusa, Square3,
+    Strategy, StrongTracking, VariableForgetting,
 };
 
 use crate::scenario::StrategyKind;
@@ -25,6 +25,7 @@ impl<const N: usize> Adaptation<N> {
             StrategyKind::StrongTracking(beta) => Box::new(StrongTracking::<N>::new(beta)),
             StrategyKind::Forgetting(memory) => Box::new(VariableForgetting::new(memory)),
             StrategyKind::ResidualNoise => Box::new(ResidualNoise::<WINDOW>::new()),
+            StrategyKind::BatchNoise(length) => Box::new(BatchNoise::new(length)),
             StrategyKind::SageHusa(b) => Box::new(SageHusa::new(b)),
         })
     }

@@ -21,6 +21,12 @@ use crate::Diagnostic;
 /// Probability of a false alarm where none is given.
 const GATE: f64 = 1e-3;
 
+/// Measurements in a batch of residuals.
+const BATCH: usize = 5;
+
+/// Largest number of them: in longer ones nothing would be learned in an alignment.
+const MAX_BATCH: usize = 1000;
+
 impl Document {
     pub(super) fn filter_settings(
         &self,
@@ -118,11 +124,24 @@ impl Document {
                 (StrategyKind::Forgetting(at_least_one(&w.memory, "memory")?), w.cap)
             }
             written::Strategy::ResidualNoise => (StrategyKind::ResidualNoise, None),
+            written::Strategy::BatchNoise(w) => (StrategyKind::BatchNoise(self.batch(w)?), None),
             written::Strategy::SageHusa(w) => {
                 (StrategyKind::SageHusa(below_one(&w.forgetting, "forgetting factor")?), None)
             }
         };
         Ok(Strategy { kind, cap: cap.unwrap_or(true) })
+    }
+
+    fn batch(&self, w: &written::BatchNoise) -> Result<usize, Diagnostic> {
+        match &w.length {
+            None => Ok(BATCH),
+            Some(length) if (1..=MAX_BATCH as u64).contains(&length.value) => Ok(length.value as usize),
+            Some(length) => Err(self
+                .diagnostic(Spot::Node(length.node), "no such length of a batch")
+                .expected(format!("1 to {MAX_BATCH} measurements"))
+                .found(length.value.to_string())
+                .example("batch_noise: { length: 5 }")),
+        }
     }
 
     fn outside(&self, q: &Quantity, what: &str, expected: &str, found: f64) -> Diagnostic {

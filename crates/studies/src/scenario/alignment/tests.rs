@@ -40,6 +40,7 @@ const FAULTS: &[(&str, &str)] = &[
     ("gate: 0.1 %", "gate: 200 %"),
     ("multiple_fading: { gate: 0.1 % }", "fading: { factor: 0.99 }"),
     ("multiple_fading: { gate: 0.1 % }", "strong_tracking: { beta: 0 }"),
+    ("multiple_fading: { gate: 0.1 % }", "batch_noise: { length: 0 }"),
     ("runs: 10", "runs: 0"),
     ("runs: 10", "window: 300 s"),
     ("runs: 10", "navigate: 0 s"),

@@ -150,6 +150,8 @@ pub enum StrategyKind {
     Forgetting(f64),
     /// The measurement noise by residuals.
     ResidualNoise,
+    /// The measurement noise by sums of residuals; with the updates of a batch.
+    BatchNoise(usize),
     /// The measurement noise by recursion; with the forgetting factor.
     SageHusa(f64),
 }

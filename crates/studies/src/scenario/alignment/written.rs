@@ -191,6 +191,8 @@ pub enum Strategy {
     Forgetting(Forgetting),
     /// Measurement noise from the windowed residuals (Mehra 1972).
     ResidualNoise,
+    /// Measurement noise from sums of residuals, which see its colour (Fishman 1978).
+    BatchNoise(BatchNoise),
     /// Measurement noise by recursion over all innovations (Sage and Husa 1969).
     SageHusa(SageHusa),
 }
@@ -203,6 +205,14 @@ pub struct Fading {
     pub factor: Quantity,
     /// Whether no variance is faded above that of the start; true when absent.
     pub cap: Option<bool>,
+}
+
+/// Batches of residuals.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BatchNoise {
+    /// Measurements in a batch, about half as many as the noise is correlated over; 5 when absent.
+    pub length: Option<At<u64>>,
 }
 
 /// Factors from a window of innovations.
