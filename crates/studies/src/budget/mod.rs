@@ -9,6 +9,7 @@ mod figures;
 mod monte_carlo;
 mod radius;
 mod report;
+mod requirement;
 mod scene;
 mod source;
 #[cfg(test)]
@@ -116,10 +117,12 @@ pub fn run(scenario: &Scenario, study: &Budget, context: &Context) -> Result<Rec
 
     let mut record = Record::new(scenario, report::summary(&scene, &contributions));
     record.tables.push(report::table(&scene, &contributions));
-    if let Some(requirement) = &study.requirement {
-        record.tables.push(report::requirement(&scene, &sources, &contributions, requirement));
-    }
     record.notes = report::notes(&scene, &contributions);
+    if let Some(requirement) = &study.requirement {
+        let (tables, notes) = requirement::requirement(&scene, &sources, &contributions, requirement);
+        record.tables.extend(tables);
+        record.notes.extend(notes);
+    }
     if scenario.output.formats.png || scenario.output.formats.svg {
         let early = scene.beginning();
         let beginning = Beginning { scene: &early, contributions: &linear(&early, &sources)? };

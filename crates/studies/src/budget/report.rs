@@ -2,14 +2,11 @@
 
 use schuler_strapdown::{Vertical, filter::chi_square};
 
-use super::radius::{derivative, horizontal, may_grow, radius, space, spherical};
+use super::radius::{horizontal, radius, space, spherical};
 use super::scene::Scene;
-use super::source::{Nine, Source};
+use super::source::Nine;
 use super::{BELIEVED, Contribution, TOTAL, Way};
-use crate::{
-    record::{Cell, Table, columns},
-    scenario::Requirement,
-};
+use crate::record::{Cell, Table, columns};
 
 /// Columns of the summary: one standard deviation of each source at the end.
 const SUMMARY: [&str; 8] =
@@ -47,47 +44,6 @@ pub fn table(scene: &Scene, contributions: &[Contribution]) -> Table {
                 table.push(&cells);
             }
         }
-    }
-    table
-}
-
-/// What binds: the radius of the required probability and how it answers to each source.
-pub fn requirement(
-    scene: &Scene,
-    sources: &[Source],
-    contributions: &[Contribution],
-    r: &Requirement,
-) -> Table {
-    let words = ["source", "parameter", "unit"];
-    let mut table = Table::new("requirement", &columns::REQUIREMENT, &words);
-    let row = scene
-        .rows
-        .iter()
-        .position(|&k| (scene.time(k) - r.at).abs() < 0.5 * scene.dt)
-        .expect("invariant: the time of a valid requirement is that of a row");
-    let whole = horizontal(&total(contributions)[row]);
-    let reached = radius(&whole, r.probability);
-    for (k, c) in contributions.iter().enumerate() {
-        let part = horizontal(&c.of(Way::Covariance).unwrap_or_default()[row]);
-        let slope = derivative(&whole, &part, reached);
-        let factor = may_grow(&whole, &part, r.probability, r.horizontal);
-        // All together have no number of their own.
-        let number = sources.get(k).map(|source| source.parameter(scene));
-        let (name, value) = number.as_ref().map_or(("", f64::NAN), |(name, _, value)| (*name, *value));
-        let unit = number.map_or(String::new(), |(_, unit, _)| unit.to_string());
-        let cells: [Cell; 10] = [
-            r.at.into(),
-            c.name.as_str().into(),
-            radius(&part, r.probability).into(),
-            slope.into(),
-            (slope / reached).into(),
-            factor.into(),
-            name.into(),
-            unit.as_str().into(),
-            value.into(),
-            (factor * value).into(),
-        ];
-        table.push(&cells);
     }
     table
 }
@@ -150,18 +106,6 @@ pub fn notes(scene: &Scene, contributions: &[Contribution]) -> Vec<String> {
         ));
     }
     notes.extend(judged(scene, contributions));
-    if let Some(r) = &scene.study.requirement {
-        let row = scene.rows.iter().position(|&k| (scene.time(k) - r.at).abs() < 0.5 * scene.dt);
-        let reached = row.map(|row| radius(&horizontal(&total(contributions)[row]), r.probability));
-        let reached = reached.unwrap_or(f64::NAN);
-        notes.push(format!(
-            "{:.4} % of the horizontal errors are within {reached:.1} m at {} s; required are {:.1} m: {}",
-            100.0 * r.probability,
-            r.at,
-            r.horizontal,
-            if reached <= r.horizontal { "met" } else { "not met" }
-        ));
-    }
     notes
 }
 

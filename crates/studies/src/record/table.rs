@@ -300,9 +300,10 @@ pub mod columns {
         "share_ratio",
         "heading_share_ratio",
     ];
-    /// `requirement.csv`: the radius of the required probability, of a source alone and of all; its derivative by the relative
-    /// size of the source and that over the radius; the factor by which the source may grow; and which number of the scenario
-    /// that is, its SI unit, its value, and the value with which the requirement is just met.
+    /// `requirement_horizontal.csv` and the like, one for each limit: the radius of the required probability, of a source alone
+    /// and of all; its derivative by the relative size of the source and that over the radius; the factor by which the source
+    /// may grow; and which number of the scenario that is, its SI unit, its value, and the value with which the requirement is
+    /// just met. Radius and derivative in metres, [metres a second or radians](required).
     pub const REQUIREMENT: [&str; 10] = [
         "t_s",
         "source",
@@ -315,6 +316,14 @@ pub mod columns {
         "value",
         "limit",
     ];
+
+    /// [`REQUIREMENT`] with the names of radius and derivative in the unit of what is required.
+    pub const fn required(radius: &'static str, derivative: &'static str) -> [&'static str; 10] {
+        let mut names = REQUIREMENT;
+        names[2] = radius;
+        names[3] = derivative;
+        names
+    }
     /// `monte_carlo.csv`: a figure (`way`) of the errors of all runs, as it was found (`source` is `estimate`), the ends of its
     /// 99 % confidence interval (`low`, `high`), and what covariance predicts (`predicted`). `mean`, `sd` and `rms` are of the
     /// errors with their sign, `q50` to `q99` the magnitudes that 50 % to 99 % of the runs do not exceed; of the horizontal

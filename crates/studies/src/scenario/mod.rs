@@ -37,7 +37,7 @@ pub use aided::valid::{Aided, Condition, ConditionKind, Detect, Measured, Measur
 pub use alignment::valid::{
     AlignStudy, Coarse, FilterSettings, Knock, Method, MethodKind, Origin, Strategy, StrategyKind, Velocity,
 };
-pub use budget::valid::{Budget, BudgetFilter, Requirement};
+pub use budget::valid::{Budget, BudgetFilter, Required, Requirement};
 pub use monte_carlo::valid::{MonteCarlo, RunFigure, Threshold, Until};
 pub use schema::json_schema;
 pub use sources::process_example;

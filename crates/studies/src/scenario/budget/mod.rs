@@ -17,7 +17,7 @@ use super::{
     written_motion,
 };
 use crate::{Diagnostic, trajectory::Trajectory};
-use valid::{Budget, Requirement};
+use valid::{Budget, Required, Requirement};
 
 /// Runs of one budget; beyond it a typing error.
 const MAX_RUNS: u64 = 1_000_000;
@@ -86,8 +86,10 @@ impl Document {
             initial_sigmas: sigmas,
             alignment,
             filter,
+            requirement: requirement
+                .map(|r| self.requirement(w, r, duration, &imu, &mechanization))
+                .transpose()?,
             mechanization,
-            requirement: requirement.map(|r| self.requirement(w, r, duration, imu.rate)).transpose()?,
             imu,
             runs,
             runs_of_each: block.and_then(|b| b.runs_of) != Some(written::RunsOf::Total),
@@ -165,15 +167,16 @@ impl Document {
         w: &Scenario,
         requirement: &At<written::Requirement>,
         duration: f64,
-        rate: f64,
+        imu: &Imu,
+        mechanization: &Mechanization,
     ) -> Result<Requirement, Diagnostic> {
         let r = &requirement.value;
         let at = self.quantity(&r.at, Unit::SECOND, Range::Positive)?;
         let every = w.output.as_ref().and_then(|o| o.value.every.as_ref());
         let every =
-            every.map_or(Ok(1.0 / rate), |every| self.quantity(every, Unit::SECOND, Range::Positive))?;
+            every.map_or(Ok(1.0 / imu.rate), |every| self.quantity(every, Unit::SECOND, Range::Positive))?;
         let rows = at / every;
-        let is_row = (rows - rows.round()).abs() < 1e-6 || (at - duration).abs() < 1e-6 / rate;
+        let is_row = (rows - rows.round()).abs() < 1e-6 || (at - duration).abs() < 1e-6 / imu.rate;
         if at > duration * (1.0 + 1e-12) || !is_row {
             return Err(self
                 .diagnostic(Spot::Node(r.at.node), "no row at the time of the requirement")
@@ -188,10 +191,30 @@ impl Document {
                 .found(probability.to_string())
                 .example("probability: 95 %"));
         }
-        Ok(Requirement {
-            horizontal: self.quantity(&r.horizontal, Unit::METRE, Range::Positive)?,
-            at,
-            probability,
-        })
+        let speed = Unit::METRE.over(Unit::SECOND);
+        let given = [
+            (Required::Horizontal, &r.horizontal, Unit::METRE),
+            (Required::Down, &r.down, Unit::METRE),
+            (Required::Velocity, &r.velocity, speed),
+            (Required::Tilt, &r.tilt, Unit::RADIAN),
+            (Required::Heading, &r.heading, Unit::RADIAN),
+        ];
+        let mut limits = Vec::new();
+        for (of, limit, unit) in given {
+            let Some(limit) = limit else { continue };
+            if of == Required::Down && mechanization.vertical == Vertical::Held {
+                return Err(self
+                    .diagnostic(Spot::Node(limit.node), "a height that is held has no error")
+                    .help("let the vertical channel free: `mechanization: { vertical: free, … }`"));
+            }
+            limits.push((of, self.quantity(limit, unit, Range::Positive)?));
+        }
+        if limits.is_empty() {
+            return Err(self
+                .diagnostic(Spot::Node(requirement.node), "nothing is required")
+                .expected("horizontal, down, velocity, tilt or heading")
+                .example("requirement: { horizontal: 1 nmi, at: 1 h, probability: 95 % }"));
+        }
+        Ok(Requirement { limits, at, probability })
     }
 }

@@ -35,6 +35,11 @@ const FAULTS: &[(&str, &str)] = &[
     ("sigma: 0.01 m/s }\nmech", "sigma: 0.01 m/s, offset: 0.1 s }\nmech"),
     ("  filter: { tilt: 0.1 deg, heading: 1 deg, noise: { velocity: 0.02 m/s } }\n", ""),
     ("frame: t", "frame: e"),
+    ("  runs: 10", "  requirement: { at: 60 s, probability: 95 % }\n  runs: 10"),
+    ("  runs: 10", "  requirement: { down: 1 m, at: 60 s, probability: 95 % }\n  runs: 10"),
+    ("  runs: 10", "  requirement: { heading: 1 m, at: 60 s, probability: 95 % }\n  runs: 10"),
+    ("  runs: 10", "  requirement: { heading: 1 arcmin, at: 60.05 s, probability: 95 % }\n  runs: 10"),
+    ("  runs: 10", "  requirement: { heading: 1 arcmin, at: 60 s, probability: 100 % }\n  runs: 10"),
     ("runs_of: total", "runs_of: totals"),
     (
         "motion: static",

@@ -47,13 +47,41 @@ pub struct BudgetFilter {
     pub believed: Aiding,
 }
 
-/// A horizontal position error that must be kept with a probability.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Errors that must be kept with a probability.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Requirement {
-    /// Radius, m, positive.
-    pub horizontal: f64,
+    /// What is limited, and its limit, m, m/s or rad, positive; at least one.
+    pub limits: Vec<(Required, f64)>,
     /// Time, s: that of a row.
     pub at: f64,
     /// Probability, between zero and one.
     pub probability: f64,
+}
+
+/// An error in the plane or along a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Required {
+    /// Position, north and east.
+    Horizontal,
+    /// Position down.
+    Down,
+    /// Velocity, north and east.
+    Velocity,
+    /// Attitude about north and east.
+    Tilt,
+    /// Attitude about down.
+    Heading,
+}
+
+impl Required {
+    /// The word in a scenario.
+    pub fn name(self) -> &'static str {
+        match self {
+            Required::Horizontal => "horizontal",
+            Required::Down => "down",
+            Required::Velocity => "velocity",
+            Required::Tilt => "tilt",
+            Required::Heading => "heading",
+        }
+    }
 }

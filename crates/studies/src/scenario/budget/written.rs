@@ -79,12 +79,20 @@ pub struct Noise {
     pub heading: Option<Quantity>,
 }
 
-/// A horizontal position error that must be kept with a probability.
+/// Errors that must be kept with a probability at some time; each limit is a requirement of its own.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Requirement {
     /// Radius that the horizontal position error must not leave, `1 nmi`.
-    pub horizontal: Quantity,
+    pub horizontal: Option<Quantity>,
+    /// Largest error of the height, `30 m`; not where the vertical channel is held.
+    pub down: Option<Quantity>,
+    /// Largest error of the horizontal velocity, `1 m/s`.
+    pub velocity: Option<Quantity>,
+    /// Largest tilt, `20 arcsec`.
+    pub tilt: Option<Quantity>,
+    /// Largest error of the heading, `5 arcmin`.
+    pub heading: Option<Quantity>,
     /// When, `1 h`: a time of a row.
     pub at: Quantity,
     /// Probability to be inside, `95 %`.
