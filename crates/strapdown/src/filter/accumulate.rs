@@ -22,14 +22,15 @@ use crate::{ErrorDynamics, Increments, Pva};
 ///
 /// and these are nilpotent: their transition is a set of plain sums over the steps, in the order of time (the same sums as
 /// in the preintegration of IMU samples). All else, S (Earth and transport rate, Coriolis, gravity gradient, metric,
-/// damping), is slow and taken in the middle of the interval:
+/// damping), is slow and taken in the middle of the interval, with its slope as the velocity changes:
 ///
 /// ```text
-/// Phi = F(T, 0) + ∫ F(T, t) S F(t, 0) dt + the terms with two S,   F the fast part
+/// Phi = F(T, 0) + ∫ F(T, t) S(t) F(t, 0) dt + the terms with two S,   F the fast part
 /// ```
 ///
-/// What is left out, terms with three slow rates and the change of S within the interval, grows with T²: standard deviations
-/// after 20 steps of 10 ms differ from those of the product over the steps by some 1e-10 in cruise, by 1e-8 in a turn of 1.3 g.
+/// What is left out grows with T² and does not add up to much: after 20 steps of 10 ms at a time, standard deviations differ
+/// from those of the product over the steps by 4e-10 at most after 21 s of cruise, of a turn of 1.3 g or of shaking, by 1e-9
+/// after a minute.
 /// Intervals of up to a second are meant; for constant dynamics over longer ones there is [`Propagation::exact`].
 #[derive(Clone, Debug)]
 pub struct Accumulator<const N: usize> {

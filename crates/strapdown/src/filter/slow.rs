@@ -2,7 +2,7 @@
 
 use fearless_simd::{Simd, SimdBase, SimdFrom, f64x4};
 use nalgebra::Vector3;
-use schuler_frames::{B, Geodetic, T, Vec3};
+use schuler_frames::{B, Geodetic, T, Vec3, earth};
 
 use super::gather::Sums;
 use super::padded::{Columns3, Padded};
@@ -17,6 +17,9 @@ pub(super) struct Slow {
     pub pr: Columns3,
     pub pv: Columns3,
     pub pp: Columns3,
+    /// Change of the velocity over the interval, and of the transport rate with it.
+    gained: Vector3<f64>,
+    turned: Vector3<f64>,
 }
 
 impl<const N: usize> Accumulator<N> {
@@ -44,6 +47,8 @@ impl<const N: usize> Accumulator<N> {
                 s.column_mut(k).fill(0.0);
             }
         }
+        let gained = b.v_t - a.v_t;
+        let turned = earth::omega_et_t(gained, middle.position).as_vec3();
         let half = 0.5 * self.t;
         let block = |row: usize, column: usize| {
             core::array::from_fn(|j| {
@@ -58,6 +63,8 @@ impl<const N: usize> Accumulator<N> {
             pr: block(6, 0),
             pv: block(6, 3),
             pp: block(6, 6),
+            gained: gained.as_nalgebra(),
+            turned: turned.as_nalgebra(),
         }
     }
 
@@ -72,6 +79,16 @@ impl<const N: usize> Accumulator<N> {
     /// Schuler loops make, and of all with two S, the force is taken as constant. Every product of two S is there, and with the
     /// fast part once between or beside them: so what is left out has three slow rates, or is of a single interval and does
     /// not add up. X = S T/2, whence the factors.
+    ///
+    /// S changes with the velocity. Where F stands on one side only, the mean of S over the interval is all that enters; where
+    /// r follows v, or the force turns phi into v, what S does early and late differs, and its slope S' makes
+    ///
+    /// ```text
+    /// dr by v: (S_rr' - S_vv') T³/12,   dv by phi: (S_vv' [f ×] - [f ×] S_pp') T³/12
+    /// ```
+    ///
+    /// In a turn of 1.3 g at 250 m/s S' is 2e-6 1/s², the terms 3e-9 and 3e-8 in 0.2 s, and grow as the intervals do; in all
+    /// other blocks they come with one more T.
     #[inline(always)]
     pub(super) fn transition<S: Simd>(
         &self,
@@ -115,6 +132,11 @@ impl<const N: usize> Accumulator<N> {
         let round = pv.times_cross(gained);
         let loop_ = m * round;
         let turned = vv.times_cross(gained);
+        // With D = S_pv, which the psi form has not: S_rr = -[rho ×] - [v ×] D, S_vv = -[rho ×] + [v ×] D, S_pp = -[rho ×],
+        // and what does not depend on velocity.
+        let bent = (Padded::cross(simd, slow.gained) * x.pv).rows(free);
+        let rho = Padded::cross(simd, slow.turned);
+        let bent_force = (bent * (2.0 / t) + rho * -1.0).held(down).times_cross(gained).rows(free) + m * rho;
         let by_r = [
             id + (x.rr + square.rr) * 2.0 + sunk + after_twice.times_stored(&slow.pr),
             (x.vr + square.vr) * 2.0
@@ -128,6 +150,7 @@ impl<const N: usize> Accumulator<N> {
                 + (x.rr + twice * (2.0 / 3.0)).scaled(from)
                 + x.vv.rows(to)
                 + sunk.scaled(from) * (1.0 / 3.0)
+                + bent * (t * (-1.0 / 3.0))
                 + after_twice.times_stored(&slow.pv),
             id + (x.vv + square.vv) * 2.0 + x.vr.scaled(from) + after.times_stored(&slow.pv),
             (x.pv + square.pv) * 2.0 + x.pr.scaled(from) + round.times_stored(&slow.pv) * (2.0 / 3.0),
@@ -143,6 +166,7 @@ impl<const N: usize> Accumulator<N> {
                 + vv.times_cross(moved_on)
                 + after.times_stored(&slow.pp)
                 + loop_ * (1.0 / 3.0)
+                + bent_force * (t * (1.0 / 12.0))
                 + slow_of_force * (2.0 / 3.0),
             id + (x.pp + square.pp) * 2.0 + pr.times_cross(third_on) + pv.times_cross(moved_on),
         ];
