@@ -4,24 +4,26 @@ use fearless_simd::{Simd, SimdBase, SimdFrom, dispatch, f64x4};
 use nalgebra::{Matrix3, Vector3};
 use schuler_imu::Instrument;
 
-use super::gather::{STEPS, Sums, load, store};
+use super::body::Evenly;
+use super::gather::{load, store};
 use super::padded::{Columns3, Padded};
 use super::slow::Slow;
+use super::waiting::STEPS;
 use super::{Accumulator, Model, Propagation};
 use crate::Vertical;
 
 impl<const N: usize> Accumulator<N> {
-    pub(super) fn finish(&self, model: &Model<N>, sums: &Sums<f64>, out: &mut Propagation<N>) {
+    pub(super) fn finish(&self, model: &Model<N>, out: &mut Propagation<N>) {
         let t = self.t;
         out.dt = t;
         out.sources = self.sources.clone();
-        let force = Vector3::from(sums.gained) / t;
+        let force = self.body.gained() / t;
         let slow = self.slow(model, force);
         let level = self.level;
         dispatch!(level, simd => {
-            self.transition(simd, model, &slow, sums, out);
-            self.couplings(simd, model, &slow, sums, out);
-            self.noise(simd, model, sums, out);
+            self.transition(simd, model, &slow, out);
+            self.couplings(simd, model, &slow, out);
+            self.noise(simd, model, out);
         });
     }
 
@@ -34,22 +36,21 @@ impl<const N: usize> Accumulator<N> {
     /// Phi_ns = E F_ns, with one S as in `transition`: ∫ v dt is r, and of r two thirds; a tilt that the rates of S make of one
     /// acts upon velocity for a third of the interval.
     #[inline(always)]
-    fn couplings<S: Simd>(
-        &self,
-        simd: S,
-        model: &Model<N>,
-        x: &Slow,
-        sums: &Sums<f64>,
-        out: &mut Propagation<N>,
-    ) {
+    fn couplings<S: Simd>(&self, simd: S, model: &Model<N>, x: &Slow, out: &mut Propagation<N>) {
         let (nav, t) = (model.nav_len(), self.t);
         let sources = model.len() - nav;
         let free = [1.0, 1.0, self.down()];
+        let evenly = if self.followed { None } else { Some(self.body.evenly(simd, t)) };
         let mut first = 0;
         while first < sources {
-            let (mut r, mut v) =
-                (three::<S, N>(simd, &self.columns.dr, first), three::<S, N>(simd, &self.columns.dv, first));
-            let p = three::<S, N>(simd, &self.columns.phi, first);
+            let [mut r, mut v, p] = match &evenly {
+                Some(evenly) => self.of_body(simd, evenly, first),
+                None => [
+                    three::<S, N>(simd, &self.columns.dr, first),
+                    three::<S, N>(simd, &self.columns.dv, first),
+                    three::<S, N>(simd, &self.columns.phi, first),
+                ],
+            };
             (r[2], v[2]) = (r[2] * free[2], v[2] * free[2]);
             let (mut of_v, mut of_r) = (r, r);
             for i in 0..3 {
@@ -57,7 +58,7 @@ impl<const N: usize> Accumulator<N> {
             }
             let mut moved = [[0.0; STEPS]; 9];
             let turned = [times::<S>(&x.pp, &p, 0), times::<S>(&x.pp, &p, 1), times::<S>(&x.pp, &p, 2)];
-            let force = sums.gained;
+            let force = self.body.gained();
             for i in 0..3 {
                 let (j, k) = ((i + 1) % 3, (i + 2) % 3);
                 let tilted = (turned[k] * force[j] - turned[j] * force[k]) * (free[i] / 3.0);
@@ -85,14 +86,39 @@ impl<const N: usize> Accumulator<N> {
         }
     }
 
+    /// Position, velocity and attitude error that source states make which go `a + b t` over the interval.
+    #[inline(always)]
+    fn of_body<S: Simd>(&self, simd: S, evenly: &Evenly, first: usize) -> [[S::f64s; 3]; 3] {
+        let (body, [a, b]) = (&self.body, &self.over);
+        let (a, b) = (load::<S>(simd, &a[first..]), load::<S>(simd, &b[first..]));
+        let gyro = load::<S>(simd, &self.columns.gyro[first..]);
+        let e = three::<S, N>(simd, &self.enters, first);
+        let (mut even, mut rising) = (e, e);
+        for i in 0..3 {
+            (even[i], rising[i]) = (e[i] * a, e[i] * b);
+        }
+        let mut out = [e; 3];
+        for i in 0..3 {
+            let turned = dot::<S>(&body.turned[i], &even, &evenly.turned[i], &rising);
+            let turning = dot::<S>(&body.turning[i], &even, &evenly.turning[i], &rising);
+            let tilted = dot::<S>(&body.tilted[i], &even, &evenly.tilted[i], &rising);
+            let tilting = dot::<S>(&body.tilting[i], &even, &evenly.tilting[i], &rising);
+            // A gyro turns the attitude back.
+            out[0][i] = turning - (turning + tilting) * gyro;
+            out[1][i] = turned - (turned + tilted) * gyro;
+            out[2][i] = -(turned * gyro);
+        }
+        out
+    }
+
     /// Noise through the fast part, the force being constant.
     #[inline(always)]
-    fn noise<S: Simd>(&self, simd: S, model: &Model<N>, sums: &Sums<f64>, out: &mut Propagation<N>) {
+    fn noise<S: Simd>(&self, simd: S, model: &Model<N>, out: &mut Propagation<N>) {
         let nav = model.nav_len();
-        let force = Vector3::from(sums.gained) / self.t;
+        let force = self.body.gained() / self.t;
         let fast = Fast::new(simd, force, self.down());
-        let mut q = self.white_noise(simd, model, sums, &fast);
-        let along = self.noise_of_sources(simd, model, sums, out);
+        let mut q = self.white_noise(simd, model, &fast);
+        let along = self.noise_of_sources(simd, model, out);
         for run in self.runs.iter().map_while(Option::as_ref) {
             let mut spread = Padded::zero(simd);
             for s in (run.first..run.end).step_by(run.len) {
@@ -135,7 +161,6 @@ impl<const N: usize> Accumulator<N> {
         &self,
         simd: S,
         model: &Model<N>,
-        sums: &Sums<f64>,
         out: &mut Propagation<N>,
     ) -> [[f64; N]; 3] {
         let (t, nav) = (self.t, model.nav_len());
@@ -147,7 +172,7 @@ impl<const N: usize> Accumulator<N> {
         for first in (0..sources).step_by(lanes) {
             let enters = three::<S, N>(simd, &self.enters, first);
             for i in 0..3 {
-                let (mean, moment) = (&sums.turned[i], &sums.turning[i]);
+                let (mean, moment) = (&self.body.turned[i], &self.body.turning[i]);
                 let d = enters[0] * mean[0] + enters[1] * mean[1] + enters[2] * mean[2];
                 let m = enters[0] * moment[0] + enters[1] * moment[1] + enters[2] * moment[2];
                 store::<S>(d * per_t, &mut along[i][first..]);
@@ -165,9 +190,7 @@ impl<const N: usize> Accumulator<N> {
             }
         }
         // Three quarters of the way: from its mean and the mean of its integral.
-        let force = core::array::from_fn::<f64, 3, _>(|i| {
-            2.5 * per_t * sums.gained[i] - 1.5 * per_square * sums.moved[i]
-        });
+        let force = self.body.gained() * (2.5 * per_t) - self.body.moved() * (1.5 * per_square);
         for first in (0..sources).step_by(lanes) {
             let (d, z) =
                 (three::<S, N>(simd, &along, first), three::<S, N>(simd, &self.with_integrals, first));
@@ -204,7 +227,7 @@ impl<const N: usize> Accumulator<N> {
     ///
     /// (in Q_vp the first moment of the force is taken as it was).
     #[inline(always)]
-    fn white_noise<S: Simd>(&self, simd: S, model: &Model<N>, sums: &Sums<f64>, fast: &Fast<S>) -> Noise<S> {
+    fn white_noise<S: Simd>(&self, simd: S, model: &Model<N>, fast: &Fast<S>) -> Noise<S> {
         let t = self.t;
         let down = self.down();
         let mut densities = [Padded::zero(simd); 3];
@@ -232,7 +255,7 @@ impl<const N: usize> Accumulator<N> {
             }
         }
         let [r, a, g] = densities;
-        let (gained, moved) = (Vector3::from(sums.gained), Vector3::from(sums.moved));
+        let (gained, moved) = (self.body.gained(), self.body.moved());
         let moment = Padded::cross(simd, gained * t - moved).rows(fast.free);
         let fg = fast.f * g;
         let fgf = fg * fast.f_transposed;
@@ -328,6 +351,12 @@ fn padded<S: Simd>(simd: S, m: &Matrix3<f64>) -> Padded<S> {
 fn three<S: Simd, const N: usize>(simd: S, rows: &[[f64; N]; 3], first: usize) -> [S::f64s; 3] {
     let [x, y, z] = rows;
     [load::<S>(simd, &x[first..]), load::<S>(simd, &y[first..]), load::<S>(simd, &z[first..])]
+}
+
+/// a v + b w of two rows, for as many v and w as there are lanes.
+#[inline(always)]
+fn dot<S: Simd>(a: &[f64; 4], v: &[S::f64s; 3], b: &[f64; 4], w: &[S::f64s; 3]) -> S::f64s {
+    (v[0] * a[0] + w[0] * b[0]) + (v[1] * a[1] + w[1] * b[1]) + (v[2] * a[2] + w[2] * b[2])
 }
 
 /// Row `i` of a v, for as many v as there are lanes.

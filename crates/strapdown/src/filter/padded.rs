@@ -61,7 +61,8 @@ impl<S: Simd> Padded<S> {
 
     /// This matrix times [v ×].
     #[inline(always)]
-    pub fn times_cross(&self, [x, y, z]: [f64; 3]) -> Self {
+    pub fn times_cross(&self, v: Vector3<f64>) -> Self {
+        let (x, y, z) = (v[0], v[1], v[2]);
         let [a, b, c] = self.0;
         Padded([b * z - c * y, c * x - a * z, a * y - b * x])
     }

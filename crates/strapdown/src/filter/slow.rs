@@ -4,7 +4,6 @@ use fearless_simd::{Simd, SimdBase, SimdFrom, f64x4};
 use nalgebra::Vector3;
 use schuler_frames::{B, Geodetic, T, Vec3, earth};
 
-use super::gather::Sums;
 use super::padded::{Columns3, Padded};
 use super::{Accumulator, Model, Propagation};
 use crate::Pva;
@@ -26,13 +25,14 @@ impl<const N: usize> Accumulator<N> {
     /// Dynamics without the fast part, in the middle of the interval, errors that were left out of the model being zero.
     pub(super) fn slow(&self, model: &Model<N>, force: Vector3<f64>) -> Slow {
         let (a, b) = (&self.start, &self.end);
+        let [x, y, z, _] = self.body.way;
         let middle = Pva {
             position: Geodetic::new(
                 0.5 * (a.position.lat + b.position.lat),
                 b.position.lon,
                 0.5 * (a.position.h + b.position.h),
             ),
-            v_t: self.v0 * (1.0 / self.t),
+            v_t: Vec3::new(x, y, z) * (1.0 / self.t),
             c_tb: b.c_tb,
         };
         let f_b: Vec3<B> = b.c_tb.inverse() * Vec3::<T>::claim([force[0], force[1], force[2]]);
@@ -95,15 +95,16 @@ impl<const N: usize> Accumulator<N> {
         simd: S,
         model: &Model<N>,
         slow: &Slow,
-        sums: &Sums<f64>,
         out: &mut Propagation<N>,
     ) {
         let (t, down) = (self.t, self.down());
         let free = f64x4::simd_from(simd, [1.0, 1.0, down, 0.0]);
-        let Sums { gained, moved, third, .. } = *sums;
-        let m = Padded::cross(simd, Vector3::from(gained)).rows(free);
-        let j = Padded::cross(simd, Vector3::from(moved)).rows(free);
-        let k = Padded::cross(simd, Vector3::from(third)).rows(free);
+        let (gained, moved) = (self.body.gained(), self.body.moved());
+        // As of a force that changes evenly.
+        let third = moved * (0.5 * t) - gained * (t * t / 12.0);
+        let m = Padded::cross(simd, gained).rows(free);
+        let j = Padded::cross(simd, moved).rows(free);
+        let k = Padded::cross(simd, third).rows(free);
         let x = Lower {
             rr: Padded::new(simd, &slow.rr),
             vr: Padded::new(simd, &slow.vr),
@@ -122,12 +123,7 @@ impl<const N: usize> Accumulator<N> {
         // Integrals of force after t, twice and once, over all t.
         let after_twice = j * 2.0 + k * (-4.0 / t);
         let after = m * 2.0 + j * (-2.0 / t);
-        let mut moved_on = moved;
-        let mut third_on = third;
-        for i in 0..3 {
-            moved_on[i] *= 2.0 / t;
-            third_on[i] *= 2.0 / t;
-        }
+        let (moved_on, third_on) = (moved * (2.0 / t), third * (2.0 / t));
         let sunk = x.vr.rows(to);
         let round = pv.times_cross(gained);
         let loop_ = m * round;
