@@ -55,9 +55,9 @@ pub struct Accumulator<const N: usize> {
     /// Source states, from the first of them on.
     pub(super) columns: Columns<N>,
     /// Direction in t in which each block has entered, integrated, where that depends on the input.
-    pub(super) way: [[f64; 3]; N],
+    pub(super) way: [[f64; N]; 3],
     /// The same times the time since the start of the interval.
-    pub(super) way_by_time: [[f64; 3]; N],
+    pub(super) way_by_time: [[f64; N]; 3],
     /// Coefficient of its block that a unit of each state at the start makes now; not kept for blocks that the kernel fades.
     weight: [f64; N],
     /// What each state pushes in the first step.
@@ -98,14 +98,14 @@ impl<const N: usize> Accumulator<N> {
             dynamics,
             start: *pva,
             end: *pva,
-            waiting: Waiting::new(pva.c_tb.as_quaternion(), pva.v_t.as_array()),
+            waiting: Waiting::new(pva.c_tb.as_quaternion()),
             t: 0.0,
             body: Body::NONE,
             white: [Matrix3::zeros(); 2],
             isotropic: Instrument::ALL.map(|instrument| model.isotropic(instrument)),
             columns: Columns::NONE,
-            way: [[0.0; 3]; N],
-            way_by_time: [[0.0; 3]; N],
+            way: [[0.0; N]; 3],
+            way_by_time: [[0.0; N]; 3],
             weight: [0.0; N],
             push_at_start: [[0.0; N]; 3],
             special: is_special || Instrument::ALL.iter().any(|i| model.isotropic(*i).is_none()),
@@ -140,7 +140,7 @@ impl<const N: usize> Accumulator<N> {
     /// Begins anew with the navigator at `pva`: after a correction of it.
     pub fn begin(&mut self, model: &Model<N>, pva: &Pva) {
         (self.start, self.end) = (*pva, *pva);
-        self.waiting.begin(pva.c_tb.as_quaternion(), pva.v_t.as_array());
+        self.waiting.begin(pva.c_tb.as_quaternion());
         self.t = 0.0;
         self.body = Body::NONE;
         if self.followed {
@@ -148,7 +148,7 @@ impl<const N: usize> Accumulator<N> {
         }
         if self.special {
             self.white = [Matrix3::zeros(); 2];
-            (self.way, self.way_by_time) = ([[0.0; 3]; N], [[0.0; 3]; N]);
+            (self.way, self.way_by_time) = ([[0.0; N]; 3], [[0.0; N]; 3]);
             for block in model.blocks() {
                 for (k, s) in block.states().enumerate() {
                     self.weight[s] = block.c[k];
@@ -200,7 +200,7 @@ impl<const N: usize> Accumulator<N> {
         }
         self.end = *pva;
         self.t += dt;
-        self.waiting.push(pva.c_tb.as_quaternion(), pva.v_t.as_array(), increments.dv.as_array(), dt);
+        self.waiting.push(pva.c_tb.as_quaternion(), increments.dv.as_array(), dt);
         if self.special {
             self.specials(model, seen, increments, dt);
         } else if self.waiting.count == STEPS {
@@ -273,9 +273,11 @@ impl<const N: usize> Accumulator<N> {
         for (number, block) in model.blocks().enumerate().filter(|(_, b)| b.column.is_none()) {
             let column = block.column(&inputs);
             let direction = c_dt * Vector3::from(column);
-            for axis in 0..3 {
-                self.way[number][axis] += direction[axis];
-                self.way_by_time[number][axis] += direction[axis] * (self.t - 0.5 * dt);
+            for s in block.states().map(|s| s - model.nav_len()) {
+                for axis in 0..3 {
+                    self.way[axis][s] += direction[axis];
+                    self.way_by_time[axis][s] += direction[axis] * (self.t - 0.5 * dt);
+                }
             }
             if let Some(step) = self.of_step[number] {
                 self.set_push(block, model.nav_len(), column, &step);

@@ -20,26 +20,11 @@ pub(crate) struct Body {
     pub tilted: Rows,
     /// Its integral.
     pub tilting: Rows,
-    /// ∫ v.
-    pub way: [f64; 4],
-}
-
-/// The sums of a [`Body`] of something that grows as time does.
-pub(crate) struct Evenly {
-    pub turned: Rows,
-    pub turning: Rows,
-    pub tilted: Rows,
-    pub tilting: Rows,
 }
 
 impl Body {
-    pub const NONE: Self = Body {
-        turned: [[0.0; 4]; 3],
-        turning: [[0.0; 4]; 3],
-        tilted: [[0.0; 4]; 3],
-        tilting: [[0.0; 4]; 3],
-        way: [0.0; 4],
-    };
+    pub const NONE: Self =
+        Body { turned: [[0.0; 4]; 3], turning: [[0.0; 4]; 3], tilted: [[0.0; 4]; 3], tilting: [[0.0; 4]; 3] };
 
     /// ∫ f.
     pub fn gained(&self) -> Vector3<f64> {
@@ -51,37 +36,6 @@ impl Body {
         last(&self.turning)
     }
 
-    /// As these sums would be over `t` with C times the time since the start of the interval.
-    ///
-    /// With C and f changing evenly: ∫ t C = T ∫C - ∫∫C exactly, and of ∫ f × (∫ u C du) the most is half of ∫ f × t (∫C).
-    #[inline(always)]
-    pub fn evenly<S: Simd>(&self, simd: S, t: f64) -> Evenly {
-        let load = |x: &[f64; 4]| f64x4::<S>::from_slice(simd, x);
-        let of = |x: &Rows| [load(&x[0]), load(&x[1]), load(&x[2])];
-        let (turned, turning) = (of(&self.turned), of(&self.turning));
-        let (tilted, tilting) = (of(&self.tilted), of(&self.tilting));
-        let gained = self.gained();
-        let mut out = Evenly {
-            turned: [[0.0; 4]; 3],
-            turning: [[0.0; 4]; 3],
-            tilted: [[0.0; 4]; 3],
-            tilting: [[0.0; 4]; 3],
-        };
-        let mut bent = turned;
-        for i in 0..3 {
-            bent[i] = turned[i] * (0.5 * t) - turning[i];
-        }
-        for i in 0..3 {
-            let (j, l) = ((i + 1) % 3, (i + 2) % 3);
-            let crossed = bent[l] * gained[j] - bent[j] * gained[l];
-            (turned[i] * t - turning[i]).store_slice(&mut out.turned[i]);
-            (turned[i] * (t * t / 6.0)).store_slice(&mut out.turning[i]);
-            ((tilted[i] * t - tilting[i]) * 0.5 + crossed * 0.25).store_slice(&mut out.tilted[i]);
-            (tilting[i] * (0.25 * t)).store_slice(&mut out.tilting[i]);
-        }
-        out
-    }
-
     /// Adds the steps that wait, whose middles are known: to the middle of each and from there to its end.
     #[inline(always)]
     pub fn add<S: Simd>(&mut self, simd: S, steps: &Waiting) {
@@ -89,7 +43,6 @@ impl Body {
         let of = |x: &Rows| [load(&x[0]), load(&x[1]), load(&x[2])];
         let (mut turned, mut turning) = (of(&self.turned), of(&self.turning));
         let (mut tilted, mut tilting) = (of(&self.tilted), of(&self.tilting));
-        let (mut way, mut before) = (load(&self.way), load(&steps.v[0]));
         for k in 0..steps.count.min(STEPS) {
             let dt = steps.dt(k);
             let mut middle = turned;
@@ -106,9 +59,6 @@ impl Body {
                 tilting[i] += halfway * dt;
                 tilted[i] = halfway + half;
             }
-            let v = load(&steps.v[k + 1]);
-            way += (before + v) * (0.5 * dt);
-            before = v;
         }
         for i in 0..3 {
             turned[i].store_slice(&mut self.turned[i]);
@@ -116,7 +66,6 @@ impl Body {
             tilted[i].store_slice(&mut self.tilted[i]);
             tilting[i].store_slice(&mut self.tilting[i]);
         }
-        way.store_slice(&mut self.way);
     }
 }
 

@@ -1,6 +1,6 @@
 //! The kernel that follows source states through the steps one by one, where that is needed.
 
-use fearless_simd::{Simd, SimdBase};
+use fearless_simd::{Simd, SimdBase, f64x8};
 
 use super::waiting::{STEPS, Waiting};
 
@@ -52,19 +52,19 @@ pub(crate) fn gather<S: Simd, const N: usize>(
     let mut first = 0;
     while first < len {
         piece::<S, N>(simd, columns, steps, first);
-        first += S::f64s::LEN;
+        first += LANES;
     }
 }
 
 /// As many states as there are lanes; lanes beyond the states in use carry zeros.
 #[inline(always)]
 fn piece<S: Simd, const N: usize>(simd: S, columns: &mut Columns<N>, steps: &Waiting, first: usize) {
-    let load = |x: &[f64; N]| load::<S>(simd, &x[first..]);
+    let load = |x: &[f64; N]| load(simd, &x[first..]);
     let of = |x: &[[f64; N]; 3]| [load(&x[0]), load(&x[1]), load(&x[2])];
     let (mut phi, mut dv, mut dr) = (of(&columns.phi), of(&columns.dv), of(&columns.dr));
     let push = of(&columns.push);
     let (gyro, decay) = (load(&columns.gyro), load(&columns.decay));
-    let mut faded = S::f64s::splat(simd, 1.0);
+    let mut faded = f64x8::splat(simd, 1.0);
     // Halves of what a step makes, once to its middle and once from there.
     for k in 0..steps.count.min(STEPS) {
         let half = |i: usize, j: usize| steps.half[i][k][j];
@@ -90,33 +90,36 @@ fn piece<S: Simd, const N: usize>(simd: S, columns: &mut Columns<N>, steps: &Wai
         }
     }
     for i in 0..3 {
-        store::<S>(phi[i], &mut columns.phi[i][first..]);
-        store::<S>(dv[i], &mut columns.dv[i][first..]);
-        store::<S>(dr[i], &mut columns.dr[i][first..]);
-        store::<S>(push[i] * faded, &mut columns.push[i][first..]);
+        store(phi[i], &mut columns.phi[i][first..]);
+        store(dv[i], &mut columns.dv[i][first..]);
+        store(dr[i], &mut columns.dr[i][first..]);
+        store(push[i] * faded, &mut columns.push[i][first..]);
     }
 }
+
+/// Source states that are worked on together.
+pub(super) const LANES: usize = 8;
 
 /// The first lanes of `x`, filled up with zeros where it is shorter.
 #[inline(always)]
-pub(super) fn load<S: Simd>(simd: S, x: &[f64]) -> S::f64s {
-    let lanes = S::f64s::LEN;
-    if x.len() >= lanes {
-        return S::f64s::from_slice(simd, &x[..lanes]);
+pub(super) fn load<S: Simd>(simd: S, x: &[f64]) -> f64x8<S> {
+    if let Some(x) = x.first_chunk::<LANES>() {
+        return f64x8::from_slice(simd, x);
     }
-    let mut room = [0.0; STEPS];
+    let mut room = [0.0; LANES];
     room[..x.len()].copy_from_slice(x);
-    S::f64s::from_slice(simd, &room[..lanes])
+    f64x8::from_slice(simd, &room)
 }
 
+/// Writes as many lanes as there is room for.
 #[inline(always)]
-pub(super) fn store<S: Simd>(value: S::f64s, x: &mut [f64]) {
-    let lanes = S::f64s::LEN;
-    if x.len() >= lanes {
-        return value.store_slice(&mut x[..lanes]);
+pub(super) fn store<S: Simd>(value: f64x8<S>, x: &mut [f64]) {
+    if let Some(x) = x.first_chunk_mut::<LANES>() {
+        return value.store_slice(x);
     }
-    let mut room = [0.0; STEPS];
-    value.store_slice(&mut room[..lanes]);
-    let len = x.len();
-    x.copy_from_slice(&room[..len]);
+    let mut room = [0.0; LANES];
+    value.store_slice(&mut room);
+    for (x, value) in x.iter_mut().zip(room) {
+        *x = value;
+    }
 }

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use schuler_frames::{B, Geodetic, T, Vec3, earth};
 
 use super::padded::{Columns3, Padded};
-use super::{Accumulator, Model, Propagation};
+use super::{Accumulator, Form, Model, Propagation};
 use crate::Pva;
 
 /// The slow dynamics over half an interval, by blocks; those that are not there are zero.
@@ -25,19 +25,23 @@ impl<const N: usize> Accumulator<N> {
     /// Dynamics without the fast part, in the middle of the interval, errors that were left out of the model being zero.
     pub(super) fn slow(&self, model: &Model<N>, force: Vector3<f64>) -> Slow {
         let (a, b) = (&self.start, &self.end);
-        let [x, y, z, _] = self.body.way;
+        // Mean of what the force has made of the velocity, and gravity and the like evenly with it.
+        let gained = (b.v_t - a.v_t).as_nalgebra();
+        let mut mean = self.body.moved() / self.t + (gained - self.body.gained()) * 0.5;
+        mean[2] *= self.down();
         let middle = Pva {
             position: Geodetic::new(
                 0.5 * (a.position.lat + b.position.lat),
                 b.position.lon,
                 0.5 * (a.position.h + b.position.h),
             ),
-            v_t: Vec3::new(x, y, z) * (1.0 / self.t),
+            v_t: a.v_t + Vec3::new(mean[0], mean[1], mean[2]),
             c_tb: b.c_tb,
         };
         let f_b: Vec3<B> = b.c_tb.inverse() * Vec3::<T>::claim([force[0], force[1], force[2]]);
         let mut system = model.form().system(&self.dynamics, &middle, f_b);
         let s = &mut system.f;
+        let rho_by_v = s.fixed_view::<3, 3>(6, 3).into_owned();
         for (axis, free) in [1.0, 1.0, self.down()].into_iter().enumerate() {
             s[(axis, 3 + axis)] -= free;
         }
@@ -47,8 +51,10 @@ impl<const N: usize> Accumulator<N> {
                 s.column_mut(k).fill(0.0);
             }
         }
-        let gained = b.v_t - a.v_t;
-        let turned = earth::omega_et_t(gained, middle.position).as_vec3();
+        let turned = match model.form() {
+            Form::Phi => rho_by_v * gained,
+            Form::Psi => earth::omega_et_t(b.v_t - a.v_t, middle.position).as_vec3().as_nalgebra(),
+        };
         let half = 0.5 * self.t;
         let block = |row: usize, column: usize| {
             core::array::from_fn(|j| {
@@ -63,8 +69,8 @@ impl<const N: usize> Accumulator<N> {
             pr: block(6, 0),
             pv: block(6, 3),
             pp: block(6, 6),
-            gained: gained.as_nalgebra(),
-            turned: turned.as_nalgebra(),
+            gained,
+            turned,
         }
     }
 

@@ -14,42 +14,35 @@ pub(crate) struct Waiting {
     pub half: [[[f64; 4]; STEPS]; 3],
     /// Velocity gained along body axes, and the length of the step.
     gained: [[f64; 4]; STEPS],
-    /// Velocity in t before the first step and after each.
-    pub v: [[f64; 4]; STEPS + 1],
     /// Quaternion of the attitude before the first step and after each.
     q: [[f64; 4]; STEPS + 1],
     pub count: usize,
 }
 
 impl Waiting {
-    /// None, the attitude being `q` and the velocity `v`.
-    pub fn new(q: [f64; 4], v: [f64; 3]) -> Self {
-        let mut new = Waiting {
+    /// None, the attitude being `q`.
+    pub fn new(q: [f64; 4]) -> Self {
+        Waiting {
             half: [[[0.0; 4]; STEPS]; 3],
             gained: [[0.0; 4]; STEPS],
-            v: [[0.0; 4]; STEPS + 1],
             // Rows not in use have an attitude too.
             q: [q; STEPS + 1],
             count: 0,
-        };
-        new.begin(q, v);
-        new
+        }
     }
 
-    /// Begins anew with the attitude `q` and the velocity `v`.
+    /// Begins anew with the attitude `q`.
     #[inline]
-    pub fn begin(&mut self, q: [f64; 4], [x, y, z]: [f64; 3]) {
+    pub fn begin(&mut self, q: [f64; 4]) {
         self.count = 0;
         self.q[0] = q;
-        self.v[0] = [x, y, z, 0.0];
     }
 
-    /// One more step of `dt`, at whose end attitude and velocity are `q` and `v`. There is room, because full ones are gathered.
+    /// One more step of `dt`, at whose end the attitude is `q`. There is room, because full ones are gathered.
     #[inline]
-    pub fn push(&mut self, q: [f64; 4], v: [f64; 3], gained: [f64; 3], dt: f64) {
+    pub fn push(&mut self, q: [f64; 4], gained: [f64; 3], dt: f64) {
         let k = self.count % STEPS;
         self.q[k + 1] = q;
-        self.v[k + 1] = [v[0], v[1], v[2], 0.0];
         self.gained[k] = [gained[0], gained[1], gained[2], dt];
         self.count = k + 1;
     }
@@ -64,7 +57,6 @@ impl Waiting {
     #[inline]
     pub fn done(&mut self) {
         self.q[0] = self.q[self.count];
-        self.v[0] = self.v[self.count];
         self.count = 0;
     }
 }
@@ -74,21 +66,22 @@ impl Waiting {
 fn columns<S: Simd>(simd: S, rows: &[[f64; 4]]) -> [f64x8<S>; 4] {
     let rows = rows.as_flattened();
     let load = |k: usize| f64x8::<S>::from_slice(simd, &rows[8 * k..8 * k + 8]);
-    let (first, second) = (load(0).deinterleave(load(1)), load(2).deinterleave(load(3)));
-    let ((w, y), (x, z)) = (first.0.deinterleave(second.0), first.1.deinterleave(second.1));
+    let (a, b, c, d) = (load(0), load(1), load(2), load(3));
+    let (wy, xz) = ([a.unzip_low(b), c.unzip_low(d)], [a.unzip_high(b), c.unzip_high(d)]);
+    let (w, y) = (wy[0].unzip_low(wy[1]), wy[0].unzip_high(wy[1]));
+    let (x, z) = (xz[0].unzip_low(xz[1]), xz[0].unzip_high(xz[1]));
     [w, x, y, z]
 }
 
 /// The rows of eight lanes of four components.
 #[inline(always)]
-fn store_rows<S: Simd>([w, x, y, z]: [f64x8<S>; 4], rows: &mut [[f64; 4]; STEPS]) {
+pub(crate) fn store_rows<S: Simd>([w, x, y, z]: [f64x8<S>; 4], rows: &mut [[f64; 4]; STEPS]) {
     let rows = rows.as_flattened_mut();
-    let (even, odd) = (w.interleave(y), x.interleave(z));
-    let (first, second) = (even.0.interleave(odd.0), even.1.interleave(odd.1));
-    first.0.store_slice(&mut rows[..8]);
-    first.1.store_slice(&mut rows[8..16]);
-    second.0.store_slice(&mut rows[16..24]);
-    second.1.store_slice(&mut rows[24..]);
+    let (wy, xz) = ([w.zip_low(y), w.zip_high(y)], [x.zip_low(z), x.zip_high(z)]);
+    for k in 0..2 {
+        wy[k].zip_low(xz[k]).store_slice(&mut rows[16 * k..16 * k + 8]);
+        wy[k].zip_high(xz[k]).store_slice(&mut rows[16 * k + 8..16 * k + 16]);
+    }
 }
 
 /// The attitude half way between two near ones, the sum of their quaternions made a unit, and the velocity gained there.
