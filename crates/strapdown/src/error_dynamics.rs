@@ -1,7 +1,7 @@
 //! Linear error dynamics of the local-level navigator, phi form, complete to first order.
 
 use nalgebra::{SMatrix, Vector3};
-use schuler_frames::earth::{omega_et_t, omega_ie_t};
+use schuler_frames::earth::{omega_ie_t, transport};
 use schuler_frames::{B, Dcm, Gravity, T, Vec3, wgs84};
 
 use crate::{Pva, Vertical};
@@ -58,7 +58,7 @@ impl ErrorDynamics {
         let r_n_slope = (r_n - r_m) * tan;
         let [v_n, v_e, v_d] = pva.v_t.as_array();
         let omega_ie = omega_ie_t(s, c);
-        let omega_et = omega_et_t(pva.v_t, position);
+        let omega_et = transport(pva.v_t, 1.0 / r_m, 1.0 / r_n, tan);
         let omega_it = (omega_et + omega_ie).as_vec3();
         let c_tb: Dcm<T, B> = pva.c_tb.as_dcm();
         let f_t = c_tb * f_b;

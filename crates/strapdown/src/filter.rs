@@ -44,6 +44,7 @@
 
 mod accumulate;
 mod block;
+mod body;
 pub mod chi_square;
 mod close;
 mod dual;
@@ -68,6 +69,7 @@ mod smoother;
 mod states;
 pub mod strategy;
 mod transport;
+mod waiting;
 #[cfg(test)]
 mod widths;
 

@@ -28,7 +28,8 @@ impl<S: Simd> Padded<S> {
 
     #[inline(always)]
     pub fn diagonal(simd: S, [x, y, z]: [f64; 3]) -> Self {
-        Self::new(simd, &[[x, 0.0, 0.0, 0.0], [0.0, y, 0.0, 0.0], [0.0, 0.0, z, 0.0]])
+        let one = Self::new(simd, &[[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]]);
+        one.scaled([x, y, z])
     }
 
     /// [v ×].
@@ -44,12 +45,12 @@ impl<S: Simd> Padded<S> {
         &self.0
     }
 
-    /// Writes its columns to three rows, from the place `first` on; the fourth lane is to be overwritten or beyond what counts.
     #[inline(always)]
-    pub fn store(&self, rows: &mut [[f64; 12]], first: usize) {
-        self.0[0].store_slice(&mut rows[0][first..first + 4]);
-        self.0[1].store_slice(&mut rows[1][first..first + 4]);
-        self.0[2].store_slice(&mut rows[2][first..first + 4]);
+    pub fn transposed(&self) -> Self {
+        let [a, b, c] = self.0;
+        let zero = a * 0.0;
+        let (ac, b_) = (a.zip_low(c), b.zip_low(zero));
+        Padded([ac.zip_low(b_), ac.zip_high(b_), a.zip_high(c).zip_low(b.zip_high(zero))])
     }
 
     /// The last column times `down`.
@@ -61,7 +62,8 @@ impl<S: Simd> Padded<S> {
 
     /// This matrix times [v ×].
     #[inline(always)]
-    pub fn times_cross(&self, [x, y, z]: [f64; 3]) -> Self {
+    pub fn times_cross(&self, v: Vector3<f64>) -> Self {
+        let (x, y, z) = (v[0], v[1], v[2]);
         let [a, b, c] = self.0;
         Padded([b * z - c * y, c * x - a * z, a * y - b * x])
     }

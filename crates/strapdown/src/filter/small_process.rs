@@ -14,6 +14,8 @@ pub(crate) struct SmallStep {
     pub phi: [[f64; 2]; 2],
     /// Mean of the transition over the step.
     pub average: [[f64; 2]; 2],
+    /// (z3, z2, z1) of a unit of the first state.
+    pub integrals: [f64; 3],
     /// Covariance of (z3, z2, z1, x) that the driving noise makes over the step.
     pub q: SMatrix<f64, D, D>,
 }
@@ -35,7 +37,12 @@ impl SmallStep {
         // The chain of integrals ends by itself; only the rates of the block make the series long.
         let (phi, q) = super::exact::discretize(&a, &density, rate, dt);
         let at = |k: usize, l: usize| phi[(3 + k, 3 + l)];
-        SmallStep { phi: [[at(0, 0), at(0, 1)], [at(1, 0), at(1, 1)]], average: average(block, rate, dt), q }
+        SmallStep {
+            phi: [[at(0, 0), at(0, 1)], [at(1, 0), at(1, 1)]],
+            average: average(block, rate, dt),
+            integrals: [phi[(0, 3)], phi[(1, 3)], phi[(2, 3)]],
+            q,
+        }
     }
 }
 

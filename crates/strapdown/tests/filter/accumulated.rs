@@ -171,6 +171,39 @@ fn accumulated_sigmas_with_a_damped_vertical() {
     assert!(off < 5e-6, "{off:e} {place}");
 }
 
+/// A state that fades slowly is the same whether it is followed through the steps, as it is beside one that fades fast, or
+/// comes from what the body does.
+#[test]
+fn slow_states_are_the_same_beside_fast_ones() {
+    let bias = |i, tau: f64| {
+        let given = [("sigma", 1e-3.into()), ("tau", tau.into())];
+        Source::named(i, "bias", "gauss_markov", &given).unwrap()
+    };
+    let slow = [bias(Gyro, 60.0), bias(Accel, 80.0)];
+    let alone = Spec::from_sources(slow).unwrap();
+    let [gyro, accel] = slow;
+    let beside = Spec::from_sources([gyro, accel, bias(Accel, 1.0)]).unwrap();
+    let dynamics = ErrorDynamics { gravity: GRAVITY, vertical: Vertical::Free };
+    let over = |spec: &Spec| {
+        let model = Model::<18>::new(Form::Phi, NavStates::ALL, spec).unwrap();
+        let mut accumulator = Accumulator::new(&model, dynamics, &start());
+        let mut nav = LocalLevel::new(&start(), GRAVITY, Vertical::Free);
+        for k in 0..20 {
+            nav.step(&shaken(k, 0.01), 0.01);
+            accumulator.step(&model, &nav.pva(), &shaken(k, 0.01), 0.01);
+        }
+        accumulator.close(&model).phi()
+    };
+    let (alone, beside) = (over(&alone), over(&beside));
+    for (i, j) in (0..3).flat_map(|i| (9..15).map(move |j| (i, j))) {
+        let column = |m: &SMatrix<f64, 18, 18>| m.fixed_view::<3, 1>(3 * i, j).into_owned();
+        let off = (column(&alone) - column(&beside)).norm() / column(&beside).norm();
+        // Attitude by a gyro and velocity by an accelerometer add up; all else comes with more powers of the interval.
+        let limit = if (i == 2) == (j < 12) && i > 0 { 1e-9 } else { 1e-4 };
+        assert!(off < limit, "rows of {i}, column {j}: {off:e}");
+    }
+}
+
 /// A length of step that changes within an interval, and lanes that are not full: 9 + 3 states of one sort in room for 12.
 #[test]
 fn steps_of_another_length_go_on_where_the_others_ended() {
