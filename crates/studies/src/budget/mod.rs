@@ -1,5 +1,6 @@
 //! The budget study: how much of the navigator's error comes from which source, several ways side by side.
 
+mod agreement;
 mod aided;
 mod alignment;
 mod closed_form;
@@ -17,6 +18,7 @@ mod tests;
 pub use columns::Columns;
 
 use crate::{Context, Diagnostic, Error, Scenario, record::Record, scenario::Budget};
+use agreement::Agreement;
 use figures::Beginning;
 use scene::Scene;
 use source::{Nine, Source};
@@ -119,7 +121,9 @@ pub fn run(scenario: &Scenario, study: &Budget, context: &Context) -> Result<Rec
     if let Some(requirement) = &study.requirement {
         record.tables.push(report::requirement(&scene, &sources, &contributions, requirement));
     }
-    record.notes = report::notes(&scene, &contributions);
+    let agreement = Agreement::new(&scene, &sources, &contributions);
+    record.tables.extend(agreement.as_ref().map(|agreement| agreement.table(&scene)));
+    record.notes = report::notes(&scene, &contributions, agreement.as_ref());
     if scenario.output.formats.png || scenario.output.formats.svg {
         let early = scene.beginning();
         let beginning = Beginning { scene: &early, contributions: &linear(&early, &sources)? };

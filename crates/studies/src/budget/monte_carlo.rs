@@ -23,10 +23,7 @@ impl Track {
         } else {
             (0..scene.study.samples).into_par_iter().map(|k| scene.seen(k, 1)).collect()
         };
-        Track {
-            inputs,
-            measured: scene.study.filter.as_ref().map(|filter| aided::Track::new(scene, filter)),
-        }
+        Track { inputs, measured: scene.study.filter.as_ref().map(|filter| aided::Track::new(scene, filter)) }
     }
 }
 

@@ -9,6 +9,9 @@ use crate::{Error, course::Course, navigator::Navigator, scenario::Frame};
 /// Samples that one run is ahead of its neighbours: what eight instruments say of them stays in the nearest cache.
 const BLOCK: usize = 32;
 
+/// Samples as long as this (s) are navigated run by run: each takes trigonometry, for which lanes are no help.
+const LONGEST: f64 = 0.3;
+
 /// Up to eight runs side by side.
 pub struct Group {
     streams: Vec<Stream>,
@@ -24,7 +27,7 @@ pub struct Group {
 
 enum Navigators {
     Lanes(Box<LocalLevelLanes>),
-    /// For what lanes do not know: other frames, updates of several samples.
+    /// For what lanes do not know: other frames, updates of several samples, long ones.
     Alone(Vec<Navigator>),
 }
 
@@ -40,15 +43,14 @@ impl Group {
         streams: Vec<Stream>,
         start: impl Fn(usize, &mut Imu) -> Result<Pva, Error>,
     ) -> Result<Group, Error> {
-        let mut imus =
-            streams.iter().map(|stream| Imu::new(spec, *stream)).collect::<Result<Vec<_>, _>>()?;
+        let mut imus = streams.iter().map(|stream| Imu::new(spec, *stream)).collect::<Result<Vec<_>, _>>()?;
         let starts = imus
             .iter_mut()
             .enumerate()
             .map(|(lane, imu)| start(lane, imu))
             .collect::<Result<Vec<Pva>, Error>>()?;
         let how = course.mechanization;
-        let navigators = if how.frame == Frame::T && how.coning == Coning::One {
+        let navigators = if how.frame == Frame::T && how.coning == Coning::One && course.dt < LONGEST {
             // The last runs may leave lanes empty.
             let all: [Pva; LANES] = std::array::from_fn(|lane| starts[lane.min(starts.len() - 1)]);
             Navigators::Lanes(Box::new(LocalLevelLanes::new(&all, how.gravity, course.vertical)))

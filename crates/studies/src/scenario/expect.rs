@@ -64,7 +64,9 @@ impl Document {
             StudyKind::Drift => columns::ERRORS.to_vec(),
             // Its parameters are estimates with intervals of their own; the deviations are facts of the log.
             StudyKind::Allan => vec!["deviation_radps", "deviation_mps2"],
-            StudyKind::Budget => [&columns::BUDGET[3..], &columns::REQUIREMENT[2..]].concat(),
+            StudyKind::Budget => {
+                [&columns::BUDGET[3..], &columns::REQUIREMENT[2..], &columns::AGREEMENT[2..]].concat()
+            }
             StudyKind::MonteCarlo => {
                 [&columns::MONTE_CARLO[3..], &columns::EXCEEDANCE[2..], &columns::RUNS_NEES[1..]].concat()
             }
