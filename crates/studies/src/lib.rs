@@ -4,6 +4,7 @@ pub mod align;
 pub mod allan_study;
 pub mod budget;
 mod channel;
+mod course;
 mod diagnostic;
 pub mod drift;
 mod error;

@@ -1,5 +1,6 @@
 //! The budget study: how much of the navigator's error comes from which source, several ways side by side.
 
+mod agreement;
 mod aided;
 mod alignment;
 mod closed_form;
@@ -18,6 +19,7 @@ mod tests;
 pub use columns::Columns;
 
 use crate::{Context, Diagnostic, Error, Scenario, record::Record, scenario::Budget};
+use agreement::Agreement;
 use figures::Beginning;
 use scene::Scene;
 use source::{Nine, Source};
@@ -117,7 +119,9 @@ pub fn run(scenario: &Scenario, study: &Budget, context: &Context) -> Result<Rec
 
     let mut record = Record::new(scenario, report::summary(&scene, &contributions));
     record.tables.push(report::table(&scene, &contributions));
-    record.notes = report::notes(&scene, &contributions);
+    let agreement = Agreement::new(&scene, &sources, &contributions);
+    record.tables.extend(agreement.as_ref().map(|agreement| agreement.table(&scene)));
+    record.notes = report::notes(&scene, &contributions, agreement.as_ref());
     if let Some(requirement) = &study.requirement {
         let (tables, notes) = requirement::requirement(&scene, &sources, &contributions, requirement);
         record.tables.extend(tables);

@@ -3,28 +3,27 @@
 use rayon::prelude::*;
 use schuler_frames::{Vec3, with_phi, with_position_error};
 use schuler_imu::{Imu, Spec, Stream, random::Draws};
-use schuler_strapdown::{Increments, NavError, Pva};
+use schuler_strapdown::{LANES, Pva};
 
 use super::scene::Scene;
 use super::source::{Nine, Source};
 use super::{aided, alignment};
-use crate::{Error, navigator::Navigator};
+use crate::{Error, monte_carlo::group::Group};
 
-/// What every run navigates along: input of the sensors, the true state at each row, and what is measured.
+/// What every run navigates along: input of the sensors, and what is measured.
 pub struct Track {
     inputs: Vec<schuler_imu::Truth>,
-    states: Vec<Pva>,
     measured: Option<aided::Track>,
 }
 
 impl Track {
     pub fn new(scene: &Scene) -> Track {
-        let inputs = if scene.steady { 1 } else { scene.study.samples };
-        Track {
-            inputs: (0..inputs).into_par_iter().map(|k| scene.seen(k, 1)).collect(),
-            states: scene.rows.iter().map(|&k| scene.moment(scene.time(k)).0).collect(),
-            measured: scene.study.filter.as_ref().map(|filter| aided::Track::new(scene, filter)),
-        }
+        let inputs = if scene.steady {
+            Group::still(scene)
+        } else {
+            (0..scene.study.samples).into_par_iter().map(|k| scene.seen(k, 1)).collect()
+        };
+        Track { inputs, measured: scene.study.filter.as_ref().map(|filter| aided::Track::new(scene, filter)) }
     }
 }
 
@@ -38,20 +37,23 @@ pub fn covariance(scene: &Scene, track: &Track, sources: &[Source], seed: u64) -
     };
     let runs = scene.study.runs;
     // In batches, so that memory does not grow with the number of runs; summed in the order of their numbers.
-    const BATCH: u64 = 64;
+    let batch = 64.max(32 * rayon::current_num_threads() as u64);
     let mut sums = vec![Nine::zeros(); scene.rows.len()];
-    for first in (0..runs).step_by(BATCH as usize) {
-        let last = runs.min(first + BATCH);
-        let batch: Result<Vec<Vec<[f64; 9]>>, Error> = (first..last)
+    for first in (0..runs).step_by(batch as usize) {
+        let last = runs.min(first + batch);
+        let eights: Vec<u64> = (first..last).step_by(LANES).collect();
+        let made: Result<Vec<Vec<Vec<[f64; 9]>>>, Error> = eights
             .into_par_iter()
-            .map(|i| {
-                let stream = Stream { seed, run: i };
-                let initial = initial(sources, stream);
-                Run { track, sources, spec: &spec, initial, stream }.navigate(scene)
+            .map(|k| {
+                let runs = (k..last.min(k + LANES as u64)).map(|run| {
+                    let stream = Stream { seed, run };
+                    Run { track, sources, spec: &spec, initial: initial(sources, stream), stream }
+                });
+                together(scene, &runs.collect::<Vec<_>>())
             })
             .collect();
-        for rows in batch? {
-            for (sum, row) in sums.iter_mut().zip(&rows) {
+        for rows in made?.iter().flatten() {
+            for (sum, row) in sums.iter_mut().zip(rows) {
                 *sum += super::columns::covariance(row);
             }
         }
@@ -72,6 +74,23 @@ fn initial(sources: &[Source], stream: Stream) -> [f64; 9] {
     sum
 }
 
+/// Navigation errors of up to eight runs at each row, by the filter where there is one. All are under the errors of the first.
+///
+/// # Errors
+/// The IMU refuses its list; the alignment finds no attitude; a run gives no numbers.
+pub fn together(scene: &Scene, runs: &[Run]) -> Result<Vec<Vec<[f64; 9]>>, Error> {
+    let Some(Run { track, spec, .. }) = runs.first() else { return Ok(Vec::new()) };
+    if let (Some(filter), Some(measured)) = (&scene.study.filter, &track.measured) {
+        return runs.iter().map(|one| aided::run(scene, filter, measured, one)).collect();
+    }
+    // Errors of the sensors that all keep their value need not be averaged over an alignment.
+    let keeps = spec.components().all(|c| c.evolution().is_constant());
+    let streams = runs.iter().map(|one| one.stream).collect();
+    let mut group = Group::new(scene, spec, streams, |lane, imu| runs[lane].begin(scene, imu, keeps))?;
+    group.advance(scene, 0, scene.study.samples, &track.inputs)?;
+    Ok(group.errors)
+}
+
 /// One run.
 pub struct Run<'a> {
     pub track: &'a Track,
@@ -86,46 +105,10 @@ pub struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// Navigation errors at each row, by the filter where there is one.
-    ///
-    /// # Errors
-    /// The IMU refuses its list; the alignment finds no attitude; the run gives no numbers.
-    pub fn navigate(&self, scene: &Scene) -> Result<Vec<[f64; 9]>, Error> {
-        match (&scene.study.filter, &self.track.measured) {
-            (Some(filter), Some(measured)) => aided::run(scene, filter, measured, self),
-            _ => self.free(scene),
-        }
-    }
-
-    fn free(&self, scene: &Scene) -> Result<Vec<[f64; 9]>, Error> {
-        let mut imu = Imu::new(self.spec, self.stream)?;
-        // At rest, errors that keep their value give the same sample every time: it need not be made again.
-        let keeps = self.spec.components().all(|c| c.evolution().is_constant());
-        let start = self.begin(scene, &mut imu, keeps)?;
-        let mut nav = Navigator::new(&start, &scene.study.mechanization, scene.vertical, scene.dt);
-        let same = scene.steady && keeps;
-        let mut increments = Increments { dtheta: Vec3::ZERO, dv: Vec3::ZERO };
-        let mut rows = Vec::with_capacity(scene.rows.len());
-        let mut sample = 0;
-        for (&row, truth) in scene.rows.iter().zip(&self.track.states) {
-            while sample < row {
-                if !same || sample == 0 {
-                    let measured = imu.step(scene.dt, self.seen(sample));
-                    increments =
-                        Increments { dtheta: Vec3::claim(measured.dtheta), dv: Vec3::claim(measured.dv) };
-                }
-                nav.step(&increments);
-                sample += 1;
-            }
-            rows.push(self.finite(NavError::between(&nav.pva(), truth).as_array(), scene.time(row))?);
-        }
-        Ok(rows)
-    }
-
     /// The computed state at t = 0, after the alignment where there is one; `keeps` says that all errors of the sensors keep
     /// their value.
     pub fn begin(&self, scene: &Scene, imu: &mut Imu, keeps: bool) -> Result<Pva, Error> {
-        let Pva { position, v_t, c_tb } = self.track.states[0];
+        let Pva { position, v_t, c_tb } = scene.states[0];
         let c_tb = match scene.study.alignment {
             0 => c_tb,
             _ => alignment::attitude(scene, imu, keeps)?,
@@ -139,22 +122,7 @@ impl Run<'_> {
     }
 
     /// What the sensors go through in a sample.
-    pub fn seen(&self, sample: u64) -> &schuler_imu::Truth {
-        let inputs = &self.track.inputs;
-        &inputs[if inputs.len() == 1 { 0 } else { sample as usize }]
-    }
-
-    /// True states at the rows.
-    pub fn states(&self) -> &[Pva] {
-        &self.track.states
-    }
-
-    /// The errors at the time `t` (s), if they are numbers.
-    pub fn finite(&self, errors: [f64; 9], t: f64) -> Result<[f64; 9], Error> {
-        if errors.iter().all(|x| x.is_finite()) {
-            return Ok(errors);
-        }
-        let source_name = format!("number {}", self.stream.run);
-        Err(Error::Diverged { source_name, way: "monte_carlo", time: t })
+    pub fn seen(&self, scene: &Scene, sample: u64) -> &schuler_imu::Truth {
+        &self.track.inputs[if scene.steady { 0 } else { sample as usize }]
     }
 }

@@ -2,6 +2,7 @@
 
 use schuler_strapdown::{Vertical, filter::chi_square};
 
+use super::agreement::Agreement;
 use super::radius::{horizontal, radius, space, spherical};
 use super::scene::Scene;
 use super::source::Nine;
@@ -14,10 +15,6 @@ const SUMMARY: [&str; 8] =
 
 /// What it has besides where the vertical channel is not held.
 const IN_SPACE: [&str; 3] = ["down_m", "sep_m", "spherical_r95_m"];
-
-/// Part of the total variance below which that of a source is not judged by runs: what linear theory leaves of it is smaller
-/// than what the second order does.
-const JUDGED: f64 = 1e-6;
 
 /// Everything that every way says.
 pub fn table(scene: &Scene, contributions: &[Contribution]) -> Table {
@@ -82,7 +79,7 @@ pub fn summary(scene: &Scene, contributions: &[Contribution]) -> Table {
 }
 
 /// What a reader of the numbers must know.
-pub fn notes(scene: &Scene, contributions: &[Contribution]) -> Vec<String> {
+pub fn notes(scene: &Scene, contributions: &[Contribution], agreement: Option<&Agreement>) -> Vec<String> {
     let mut notes = vec![
         "Sources are independent of each other: variances sum to the total; a fixed value counts as one standard deviation of its size".into(),
         "cep_m and r95_m are the radii that hold 50 % and 95 % of plane normal errors of that covariance, sep_m and spherical_r95_m the same in space; horizontal_m is the root of the sum of both variances".into(),
@@ -105,31 +102,8 @@ pub fn notes(scene: &Scene, contributions: &[Contribution]) -> Vec<String> {
             sigma(truth, 8).to_degrees() * 60.0,
         ));
     }
-    notes.extend(judged(scene, contributions));
+    notes.extend(agreement.map(Agreement::note));
     notes
-}
-
-/// The runs beside the covariance.
-fn judged(scene: &Scene, contributions: &[Contribution]) -> Option<String> {
-    let runs = scene.study.runs;
-    if runs == 0 {
-        return None;
-    }
-    let whole = total(contributions).last()?;
-    let [low, high] = band(runs);
-    let (mut all, mut outside) = (0, 0);
-    for c in contributions {
-        let (Some(theory), Some(found)) = (c.of(Way::Covariance), c.of(Way::MonteCarlo)) else { continue };
-        let (Some(p), Some(q)) = (theory.last(), found.last()) else { continue };
-        for k in (0..9).filter(|&k| p[(k, k)] > JUDGED * whole[(k, k)]) {
-            let ratio = q[(k, k)] / p[(k, k)];
-            all += 1;
-            outside += usize::from(!(low..=high).contains(&ratio));
-        }
-    }
-    Some(format!(
-        "Monte Carlo of {runs} runs: {outside} of {all} variances of the last row are outside their 99 % chi-square band [{low:.4}, {high:.4}] about the covariance (those below 0.1 % of the total in standard deviation are not judged)"
-    ))
 }
 
 /// 99 % band of the mean square of `runs` normals of variance one. Beyond a thousand by the cube-root approximation of

@@ -6,6 +6,7 @@
 mod bands;
 mod figures;
 mod gather;
+pub(crate) mod group;
 mod prediction;
 mod replay;
 mod report;

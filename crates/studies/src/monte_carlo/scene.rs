@@ -1,87 +1,36 @@
-//! The motion of the runs and their rows of time.
+//! The motion of the runs and what is drawn at their start.
 
-use schuler_imu::Truth as Seen;
-use schuler_strapdown::{ErrorDynamics, Pva, Vertical};
+use std::ops::Deref;
 
-use crate::{
-    Scenario, channel,
-    scenario::{MonteCarlo, Motion, Temperature},
-    trajectory::Truth,
-};
+use crate::{Scenario, course::Course, scenario::MonteCarlo};
 
-/// What all runs share.
+/// What all runs share; of it, what is so along any motion, is that of its [`Course`].
 pub struct Scene<'a> {
     /// The study.
     pub study: &'a MonteCarlo,
     /// Master seed.
     pub seed: u64,
-    /// The motion.
-    pub truth: Truth,
-    /// The vertical channel of the navigator.
-    pub vertical: Vertical,
-    /// Sample interval, s.
-    pub dt: f64,
-    /// Numbers of samples after which there is a row, the first 0.
-    pub rows: Vec<u64>,
-    /// What is true at each row.
-    pub states: Vec<Pva>,
-    /// At rest, under one temperature: every sample sees the same.
-    pub steady: bool,
+    course: Course<'a>,
+}
+
+impl<'a> Deref for Scene<'a> {
+    type Target = Course<'a>;
+
+    fn deref(&self) -> &Course<'a> {
+        &self.course
+    }
 }
 
 impl<'a> Scene<'a> {
     /// The scene of a valid study, with the rows that its scenario asks for.
     pub fn new(scenario: &Scenario, study: &'a MonteCarlo) -> Scene<'a> {
-        let stride =
-            scenario.output.every.map_or(1, |every| (every * study.imu.rate).round().max(1.0) as u64);
-        Scene::with_stride(study, scenario.seed, stride)
+        Scene::with_stride(study, scenario.seed, Course::stride(scenario.output.every, study.imu.rate))
     }
 
     /// The same with a row every `stride` samples and at the end.
     pub fn with_stride(study: &'a MonteCarlo, seed: u64, stride: u64) -> Scene<'a> {
-        let mut rows: Vec<u64> = (0..=study.samples / stride).map(|k| k * stride).collect();
-        if !study.samples.is_multiple_of(stride) {
-            rows.push(study.samples);
-        }
-        let dt = 1.0 / study.imu.rate;
-        let gravity = study.mechanization.gravity;
-        let trajectory = study.motion.trajectory(&study.start, gravity, study.samples, dt);
-        let trajectory = trajectory.ok().flatten().expect(
-            "invariant: the motion of a valid scenario is possible, and neither zero truth nor a file",
-        );
-        let truth = Truth::boxed(trajectory, gravity);
-        let states = rows.iter().map(|&k| truth.moment(k as f64 * dt).pva).collect();
-        Scene {
-            study,
-            seed,
-            truth,
-            vertical: channel::vertical(&study.mechanization, study.start.position),
-            dt,
-            rows,
-            states,
-            steady: matches!(study.motion, Motion::Static)
-                && matches!(study.imu.temperature, None | Some(Temperature::Constant(_))),
-        }
-    }
-
-    /// Time of a sample, s.
-    pub fn time(&self, sample: u64) -> f64 {
-        sample as f64 * self.dt
-    }
-
-    /// What the sensors go through during `count` samples from the one of number `sample`, as one interval.
-    pub fn seen(&self, sample: u64, count: u64) -> Seen {
-        let (t, dt) = (self.time(sample), count as f64 * self.dt);
-        let seen = self.truth.imu_truth(t, dt);
-        match &self.study.imu.temperature {
-            None => seen,
-            Some(temperature) => seen.at_temperature(&temperature.profile(), t, dt),
-        }
-    }
-
-    /// Error dynamics of the navigator.
-    pub fn dynamics(&self) -> ErrorDynamics {
-        ErrorDynamics { gravity: self.study.mechanization.gravity, vertical: self.vertical }
+        let MonteCarlo { motion, start, imu, mechanization, samples, .. } = study;
+        Scene { study, seed, course: Course::new(motion, start, imu, mechanization, *samples, stride) }
     }
 
     /// Standard deviations of the nine initial errors.

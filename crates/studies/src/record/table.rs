@@ -316,6 +316,19 @@ pub mod columns {
         "value",
         "limit",
     ];
+    /// `agreement.csv`: variances of the last row by runs beside the covariance: how many were judged, how many are outside their
+    /// 99 % band, the least and the largest over the covariance; the probability (at most) that chance leaves one as far out as
+    /// the furthest, and that so many sources have one outside. The last row is of all together.
+    pub const AGREEMENT: [&str; 8] = [
+        "t_s",
+        "source",
+        "judged_count",
+        "outside_count",
+        "least_ratio",
+        "largest_ratio",
+        "worst_chance_ratio",
+        "count_chance_ratio",
+    ];
 
     /// [`REQUIREMENT`] with the names of radius and derivative in the unit of what is required.
     pub const fn required(radius: &'static str, derivative: &'static str) -> [&'static str; 10] {
@@ -324,6 +337,7 @@ pub mod columns {
         names[3] = derivative;
         names
     }
+
     /// `monte_carlo.csv`: a figure (`way`) of the errors of all runs, as it was found (`source` is `estimate`), the ends of its
     /// 99 % confidence interval (`low`, `high`), and what covariance predicts (`predicted`). `mean`, `sd` and `rms` are of the
     /// errors with their sign, `q50` to `q99` the magnitudes that 50 % to 99 % of the runs do not exceed; of the horizontal

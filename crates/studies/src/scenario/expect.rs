@@ -66,7 +66,8 @@ impl Document {
             StudyKind::Allan => vec!["deviation_radps", "deviation_mps2"],
             StudyKind::Budget => {
                 let others = ["radius_mps", "derivative_mps", "radius_rad", "derivative_rad"];
-                [&columns::BUDGET[3..], &columns::REQUIREMENT[2..], &others].concat()
+                [&columns::BUDGET[3..], &columns::REQUIREMENT[2..], &columns::AGREEMENT[2..], &others]
+                    .concat()
             }
             StudyKind::MonteCarlo => {
                 [&columns::MONTE_CARLO[3..], &columns::EXCEEDANCE[2..], &columns::RUNS_NEES[1..]].concat()

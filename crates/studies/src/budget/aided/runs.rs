@@ -9,6 +9,7 @@ use super::super::scene::Scene;
 use super::super::source::Kind;
 use super::{MOST_STATES, begun, measured, measurements, room, schedule};
 use crate::Error;
+use crate::monte_carlo::group::finite;
 use crate::navigate::aided::ClosedLoop;
 use crate::scenario::{Aid, BudgetFilter, MeasuredKind};
 use crate::trajectory::Moment;
@@ -59,9 +60,9 @@ fn closed<const N: usize>(
     let mut events = track.events.iter().peekable();
     let mut rows = Vec::with_capacity(scene.rows.len());
     let mut sample = 0;
-    for (&row, truth) in scene.rows.iter().zip(one.states()) {
+    for (&row, truth) in scene.rows.iter().zip(&scene.states) {
         while sample < row {
-            let felt = imu.step(scene.dt, one.seen(sample));
+            let felt = imu.step(scene.dt, one.seen(scene, sample));
             let increments = Increments { dtheta: Vec3::claim(felt.dtheta), dv: Vec3::claim(felt.dv) };
             closed.advance(&increments, scene.dt);
             sample += 1;
@@ -73,7 +74,7 @@ fn closed<const N: usize>(
             }
         }
         let errors = NavError::between(&closed.pva(), truth).as_array();
-        rows.push(one.finite(errors, scene.time(row))?);
+        rows.push(finite(errors, one.stream, scene.time(row))?);
     }
     Ok(rows)
 }

@@ -396,3 +396,10 @@ fn ways_agree_along_a_flight() {
         assert!((half.abs() / report::sigma(p, k) - 1.0).abs() < 1e-5, "{k}: {half} {}", report::sigma(p, k));
     }
 }
+
+impl monte_carlo::Run<'_> {
+    /// The run by itself.
+    fn navigate(self, scene: &Scene) -> Result<Vec<[f64; 9]>, crate::Error> {
+        Ok(monte_carlo::together(scene, &[self])?.remove(0))
+    }
+}

@@ -1,0 +1,221 @@
+//! Runs beside the covariance: how many of the variances are outside their band, and what chance leaves outside.
+
+use std::f64::consts::FRAC_1_SQRT_2;
+
+use super::report::{band, total};
+use super::scene::Scene;
+use super::source::{Kind, Source};
+use super::{Contribution, Way};
+use crate::record::{Cell, Table, columns};
+
+/// Part of the total variance below which that of a source is not judged by runs: what linear theory leaves of it is smaller
+/// than what the second order does.
+const JUDGED: f64 = 1e-6;
+
+/// Share of the variances that chance alone leaves outside their 99 % band.
+const OUTSIDE: f64 = 0.01;
+
+/// The row of all others.
+const ALL: &str = "all";
+
+/// Variances of the last row that runs have found, over those of the covariance.
+pub struct Agreement {
+    runs: u64,
+    rows: Vec<Row>,
+}
+
+/// Those of one source, or of the total.
+struct Row {
+    name: String,
+    /// Of each error that is judged.
+    ratios: Vec<f64>,
+    outside: usize,
+    /// Numbers drawn for a run that its errors depend on: one of what is constant, whose errors all agree or all do not.
+    /// None for the total, which has no draws of its own.
+    draws: Option<Draws>,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Draws {
+    One,
+    Many,
+}
+
+impl Agreement {
+    /// What there is to judge; `None` without runs.
+    pub fn new(scene: &Scene, sources: &[Source], contributions: &[Contribution]) -> Option<Agreement> {
+        let runs = scene.study.runs;
+        let whole = total(contributions).last()?;
+        let [low, high] = band(runs);
+        let row = |(k, c): (usize, &Contribution)| {
+            let p = c.of(Way::Covariance)?.last()?;
+            let q = c.of(Way::MonteCarlo)?.last()?;
+            let judged = (0..9).filter(|&k| p[(k, k)] > JUDGED * whole[(k, k)]);
+            let ratios: Vec<f64> = judged.map(|k| q[(k, k)] / p[(k, k)]).collect();
+            let outside = ratios.iter().filter(|ratio| !(low..=high).contains(*ratio)).count();
+            let draws = sources.get(k).map(|source| match source.kind {
+                Kind::Initial(_) => Draws::One,
+                Kind::Sensor(_) if source.size().is_some() => Draws::One,
+                Kind::Sensor(_) | Kind::Noise(_) => Draws::Many,
+            });
+            Some(Row { name: c.name.clone(), ratios, outside, draws })
+        };
+        let rows: Vec<Row> = contributions.iter().enumerate().filter_map(row).collect();
+        (!rows.is_empty()).then_some(Agreement { runs, rows })
+    }
+
+    /// `agreement.csv`.
+    pub fn table(&self, scene: &Scene) -> Table {
+        let mut table = Table::new("agreement", &columns::AGREEMENT, &["source"]);
+        let t = scene.rows.last().map_or(0.0, |&k| scene.time(k));
+        let mut push = |name: &str, ratios: &[f64], outside: usize, chance: f64| {
+            let cells: [Cell; 8] = [
+                t.into(),
+                name.into(),
+                (ratios.len() as f64).into(),
+                (outside as f64).into(),
+                ratios.iter().copied().fold(f64::NAN, f64::min).into(),
+                ratios.iter().copied().fold(f64::NAN, f64::max).into(),
+                self.worst(ratios).into(),
+                chance.into(),
+            ];
+            table.push(&cells);
+        };
+        for row in &self.rows {
+            let chance = row.draws.map_or(f64::NAN, |_| if row.outside > 0 { row.chance() } else { 1.0 });
+            push(&row.name, &row.ratios, row.outside, chance);
+        }
+        let all: Vec<f64> = self.rows.iter().flat_map(|row| row.ratios.iter().copied()).collect();
+        push(ALL, &all, self.outside(), self.chance());
+        table
+    }
+
+    /// In a sentence.
+    pub fn note(&self) -> String {
+        let [low, high] = band(self.runs);
+        let all: Vec<f64> = self.rows.iter().flat_map(|row| row.ratios.iter().copied()).collect();
+        let (worst, chance) = (self.worst(&all), self.chance());
+        let of = match self.independent().count() {
+            0 => String::new(),
+            n => format!(
+                " (of {} of {n} sources; by chance so many or more with a probability of at most {chance:.2})",
+                self.independent().filter(|row| row.outside > 0).count()
+            ),
+        };
+        format!(
+            "Monte Carlo of {} runs: {} of {} variances of the last row are outside their 99 % chi-square band [{low:.4}, {high:.4}] about the covariance{of}; one of all as far out as the furthest with at most {worst:.2}: {} (those below 0.1 % of the total in standard deviation are second order and not judged)",
+            self.runs,
+            self.outside(),
+            all.len(),
+            if worst.min(chance) >= OUTSIDE { "they agree" } else { "NOT CONSISTENT" },
+        )
+    }
+
+    fn outside(&self) -> usize {
+        self.rows.iter().map(|row| row.outside).sum()
+    }
+
+    /// Sources with draws of their own and something to judge.
+    fn independent(&self) -> impl Iterator<Item = &Row> {
+        self.rows.iter().filter(|row| row.draws.is_some() && !row.ratios.is_empty())
+    }
+
+    /// Probability, at most, that one or more of so many ratios are as far from one as the furthest of them (Bonferroni: whatever
+    /// hangs together).
+    fn worst(&self, ratios: &[f64]) -> f64 {
+        let least = ratios.iter().map(|ratio| self.tail(*ratio)).fold(1.0, f64::min);
+        (least * ratios.len() as f64).min(1.0)
+    }
+
+    /// Probability of a ratio as far from one, by the cube root of Wilson and Hilferty (Proc. Natl. Acad. Sci. 17, 1931).
+    fn tail(&self, ratio: f64) -> f64 {
+        let v = 2.0 / (9.0 * self.runs as f64);
+        libm::erfc((ratio.cbrt() - (1.0 - v)).abs() / v.sqrt() * FRAC_1_SQRT_2)
+    }
+
+    /// Probability, at most, that as many sources or more have a variance outside: they are independent, and of each it is no
+    /// more than the sum over its variances.
+    fn chance(&self) -> f64 {
+        let found = self.independent().filter(|row| row.outside > 0).count();
+        at_least(found, self.independent().map(Row::chance))
+    }
+}
+
+impl Row {
+    /// Probability, at most, that one or more of the variances are outside.
+    fn chance(&self) -> f64 {
+        match self.draws {
+            Some(Draws::One) => OUTSIDE,
+            _ => (OUTSIDE * self.ratios.len() as f64).min(1.0),
+        }
+    }
+}
+
+/// Probability that `count` or more of independent events happen.
+fn at_least(count: usize, chances: impl Iterator<Item = f64>) -> f64 {
+    // Of fewer than `count`, each number of them by itself.
+    let mut fewer = vec![0.0; count];
+    if let Some(none) = fewer.first_mut() {
+        *none = 1.0;
+    }
+    for p in chances {
+        for k in (0..count).rev() {
+            fewer[k] = fewer[k] * (1.0 - p) + if k > 0 { fewer[k - 1] * p } else { 0.0 };
+        }
+    }
+    (1.0 - fewer.iter().sum::<f64>()).max(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn agreement(runs: u64, rows: &[(&[f64], Option<Draws>)]) -> Agreement {
+        let [low, high] = band(runs);
+        let row = |(ratios, draws): &(&[f64], Option<Draws>)| Row {
+            name: String::new(),
+            ratios: ratios.to_vec(),
+            outside: ratios.iter().filter(|r| !(low..=high).contains(*r)).count(),
+            draws: *draws,
+        };
+        Agreement { runs, rows: rows.iter().map(row).collect() }
+    }
+
+    /// Binomial: of ten at a tenth, two or more 1 - 0.9^10 - 10 0.1 0.9^9; and two unlike ones by hand.
+    #[test]
+    fn independent_events() {
+        let two = at_least(2, std::iter::repeat_n(0.1, 10));
+        assert!((two - (1.0 - 0.9f64.powi(10) - 0.9f64.powi(9))).abs() < 1e-14);
+        assert!((at_least(1, [0.2, 0.5].into_iter()) - 0.6).abs() < 1e-14);
+        assert!((at_least(2, [0.2, 0.5].into_iter()) - 0.1).abs() < 1e-14);
+        assert_eq!(at_least(0, [0.2].into_iter()), 1.0);
+    }
+
+    /// NIST/SEMATECH e-Handbook, 1.3.6.7.4: of 100 degrees of freedom 0.5 % are below 67.328 and as many above 140.169.
+    #[test]
+    fn tails() {
+        let a = agreement(100, &[]);
+        for x in [0.67328, 1.40169] {
+            assert!((a.tail(x) - 0.01).abs() < 2e-4, "{}", a.tail(x));
+        }
+    }
+
+    /// What is one draw counts once; a wrong covariance is told by one variance far out, and by many sources a little out.
+    #[test]
+    fn disagreement_is_told() {
+        let good: &[f64] = &[1.0, 0.99, 1.03];
+        let a = agreement(1000, &[(good, Some(Draws::One)), (good, Some(Draws::Many)), (good, None)]);
+        assert!(a.outside() == 0 && a.chance() == 1.0 && a.note().contains("they agree"), "{}", a.note());
+        // A standard deviation that is wrong by a tenth: 4.5 sigmas of the estimate, twice 3.4e-6.
+        let far = agreement(1000, &[(&[1.0, 1.21], Some(Draws::Many)), (good, None)]);
+        assert!(far.outside() == 1 && far.note().contains("NOT CONSISTENT"), "{}", far.note());
+        assert!((1e-6..1e-3).contains(&far.worst(&[1.0, 1.21])));
+        // 1.125 is 2.7 sigmas out: nothing in one source of ten, too much in three.
+        let out: (&[f64], _) = (&[1.125; 7], Some(Draws::One));
+        let one = agreement(1000, &[&[out][..], &[(good, Some(Draws::One)); 9]].concat());
+        assert!(one.outside() == 7 && (one.chance() - (1.0 - 0.99f64.powi(10))).abs() < 1e-12);
+        assert!(one.note().contains("they agree"), "{}", one.note());
+        let three = agreement(1000, &[&[out; 3][..], &[(good, Some(Draws::One)); 7]].concat());
+        assert!(three.note().contains("NOT CONSISTENT"), "{}", three.note());
+    }
+}
