@@ -1,18 +1,14 @@
 //! Sensitivity columns: what one standard deviation of a constant does, one transition for all of them.
 
 use nalgebra::{SMatrix, SVector};
-use schuler_imu::Instrument;
-use schuler_strapdown::{ErrorDynamics, Transition};
+use rayon::prelude::*;
+use schuler_imu::Component;
 
 use super::alignment;
+use super::covariance::{TOGETHER, intervals};
+use super::passage::{Drive, Passage, Passages, samples};
 use super::scene::Scene;
 use super::source::{Kind, Nine, Source};
-
-/// Longest step along a motion over which the motion is sampled, s; at rest a step is as long as the distance of rows.
-const STEP: f64 = 0.1;
-
-/// Longest interval along a motion over which transitions are gathered before columns are moved, s.
-const INTERVAL: f64 = 1.0;
 
 /// Columns moved together.
 const LANES: usize = 8;
@@ -91,30 +87,21 @@ impl Columns {
     }
 }
 
-/// What drives constants: one coefficient of a sensor error, and what a unit of it has done since the interval began.
-struct Drive<'a> {
-    source: &'a Source,
-    response: SVector<f64, 9>,
-}
-
-/// Columns of the constant sources of a budget, and what moves them.
-pub struct Moving<'a> {
-    scene: &'a Scene<'a>,
-    /// The columns at the time that was reached.
+/// Columns of the constant sources of a budget at their start, and what drives them.
+pub struct Constants {
+    /// The columns; each is driven by number 0 (nothing) or by that of a drive and one.
     pub columns: Columns,
     /// Number of the column of each source, if it is constant.
     pub places: Vec<Option<usize>>,
-    drives: Vec<Drive<'a>>,
-    /// Answers to a unit over the last interval; number 0 is for what nothing drives.
-    responses: Vec<SVector<f64, 9>>,
-    last: Option<(u64, Transition)>,
+    /// Coefficients that differ.
+    pub drives: Vec<Drive>,
 }
 
-impl<'a> Moving<'a> {
+impl Constants {
     /// At t = 0, after the alignment where there is one.
-    pub fn new(scene: &'a Scene, sources: &'a [Source]) -> Moving<'a> {
+    pub fn new(scene: &Scene, sources: &[Source]) -> Constants {
         let law = alignment::Law::new(scene);
-        let mut drives: Vec<Drive> = Vec::new();
+        let mut known: Vec<&Component> = Vec::new();
         let mut columns = Columns::new();
         let mut places = vec![None; sources.len()];
         for (place, source) in places.iter_mut().zip(sources) {
@@ -123,17 +110,14 @@ impl<'a> Moving<'a> {
                 Kind::Noise(_) => continue,
                 Kind::Sensor(component) => {
                     let Some(size) = source.size().filter(|size| size.rate == 0.0) else { continue };
-                    let same = |d: &Drive| match &d.source.kind {
-                        Kind::Sensor(known) => {
-                            known.instrument() == component.instrument()
-                                && known.term().name() == component.term().name()
-                                && known.coefficient() == component.coefficient()
-                        }
-                        _ => false,
+                    let same = |known: &&Component| {
+                        known.instrument() == component.instrument()
+                            && known.term().name() == component.term().name()
+                            && known.coefficient() == component.coefficient()
                     };
-                    let number = drives.iter().position(same).unwrap_or_else(|| {
-                        drives.push(Drive { source, response: SVector::zeros() });
-                        drives.len() - 1
+                    let number = known.iter().position(same).unwrap_or_else(|| {
+                        known.push(component);
+                        known.len() - 1
                     });
                     (aligned(scene, &law, source, size.value), 1 + number, size.value)
                 }
@@ -141,56 +125,47 @@ impl<'a> Moving<'a> {
             *place = Some(columns.len());
             columns.push(x0, number, size);
         }
-        let responses = vec![SVector::zeros(); 1 + drives.len()];
-        Moving { scene, columns, places, drives, responses, last: None }
+        let spec = &scene.study.imu.spec;
+        let drives = known.into_iter().map(|component| Drive::of_truth(*component, spec)).collect();
+        Constants { columns, places, drives }
     }
 
-    /// On from sample `begin` to `end`.
-    pub fn over(&mut self, begin: u64, end: u64) {
-        let scene = self.scene;
-        let longest = if scene.steady { u64::MAX } else { ((STEP / scene.dt + 1e-9) as u64).max(1) };
-        let mut phi = Nine::identity();
-        let mut sample = begin;
-        while sample < end {
-            let count = longest.min(end - sample);
-            let known = self.last.filter(|(c, _)| scene.steady && *c == count);
-            let moved = known.map_or_else(|| transition(scene, sample, count), |(_, moved)| moved);
-            self.last = Some((count, moved));
-            phi = nine(&moved) * phi;
-            let (seen, dt) = (scene.seen(sample, count), scene.time(count));
-            for drive in &mut self.drives {
-                let pushed = scene.regressor(drive.source, &seen, dt);
-                drive.response = nine(&moved) * drive.response + push(&moved, pushed);
-            }
-            sample += count;
+    /// Moves all columns by a transition and by what the drives have done.
+    pub fn advance(&mut self, phi: &Nine, responses: &[SVector<f64, 9>]) {
+        let none = std::iter::once(SVector::zeros());
+        let numbered: Vec<_> = none.chain(responses.iter().copied()).collect();
+        self.columns.advance(phi, &numbered);
+    }
+
+    /// Adds the columns as they are to the rows of their sources.
+    pub fn keep(&self, rows: &mut [Vec<[f64; 9]>]) {
+        for (rows, place) in rows.iter_mut().zip(&self.places) {
+            rows.extend(place.map(|k| self.columns.column(k)));
         }
-        for (response, drive) in self.responses[1..].iter_mut().zip(&mut self.drives) {
-            *response = std::mem::take(&mut drive.response);
-        }
-        self.columns.advance(&phi, &self.responses);
     }
 }
 
 /// Errors of one standard deviation of each source at each row, `result[source][row]`; empty for sources that are not
 /// constant. With sign: the source is positive.
 pub fn responses(scene: &Scene, sources: &[Source]) -> Vec<Vec<[f64; 9]>> {
-    let mut moving = Moving::new(scene, sources);
+    let mut constants = Constants::new(scene, sources);
+    let mut passages = Passages::new(scene, constants.drives.clone());
     let mut result: Vec<Vec<[f64; 9]>> = vec![Vec::new(); sources.len()];
-    let mut keep = |moving: &Moving| {
-        for (rows, place) in result.iter_mut().zip(&moving.places) {
-            rows.extend(place.map(|k| moving.columns.column(k)));
+    constants.keep(&mut result);
+    let intervals = intervals(scene);
+    for some in intervals.chunks(TOGETHER) {
+        let passed: Vec<Passage> = if scene.steady {
+            some.iter().map(|[begin, end]| passages.pass(*begin, *end, &[])).collect()
+        } else {
+            let along = |[begin, end]: &[u64; 2]| passages.along(*begin, &samples(scene, *begin, *end));
+            some.par_iter().map(along).collect()
+        };
+        for ([_, end], passage) in some.iter().zip(passed) {
+            constants.advance(&passage.phi, &passage.responses);
+            if scene.rows.binary_search(end).is_ok() {
+                constants.keep(&mut result);
+            }
         }
-    };
-    keep(&moving);
-    let interval = if scene.steady { u64::MAX } else { ((INTERVAL / scene.dt + 1e-9) as u64).max(1) };
-    for pair in scene.rows.windows(2) {
-        let mut sample = pair[0];
-        while sample < pair[1] {
-            let end = pair[1].min(sample.saturating_add(interval));
-            moving.over(sample, end);
-            sample = end;
-        }
-        keep(&moving);
     }
     result
 }
@@ -210,25 +185,4 @@ fn aligned(scene: &Scene, law: &alignment::Law, source: &Source, value: f64) -> 
         x[6..].copy_from_slice(&law.phi(instrument, column.map(|c| c * value)));
     }
     x
-}
-
-/// The nine errors of a transition; its tenth is of a loop that no budget has.
-fn nine(step: &Transition) -> Nine {
-    step.phi.fixed_view::<9, 9>(0, 0).into_owned()
-}
-
-/// What a sensor error does over a step.
-fn push(step: &Transition, error: Option<(Instrument, [f64; 3])>) -> SVector<f64, 9> {
-    let Some((instrument, column)) = error else { return SVector::zeros() };
-    let first = match instrument {
-        Instrument::Gyro => 0,
-        Instrument::Accel => 3,
-    };
-    step.gamma.fixed_view::<9, 3>(0, first) * SVector::<f64, 3>::from(column)
-}
-
-fn transition(scene: &Scene, sample: u64, count: u64) -> Transition {
-    let (t, dt) = (scene.time(sample), scene.time(count));
-    let [a, b] = ErrorDynamics::NODES.map(|node| scene.moment(t + node * dt));
-    scene.dynamics().transition([(&a.0, a.1), (&b.0, b.1)], dt)
 }

@@ -8,6 +8,7 @@ mod columns;
 mod covariance;
 mod figures;
 mod monte_carlo;
+mod passage;
 mod radius;
 mod report;
 mod requirement;
@@ -146,12 +147,12 @@ fn linear(scene: &Scene, sources: &[Source]) -> Result<Vec<Contribution>, Error>
         Some(filter) => {
             let found = aided::linear(scene, filter, sources)?;
             own = Some(Said { way: Way::Sigma, first: 0, p: found.own });
-            (found.covariance, found.columns, None)
+            (found.covariance, found.columns, found.adjoint)
         }
         None => (
             covariance::covariance(scene, sources),
             columns::responses(scene, sources),
-            Some(covariance::adjoint(scene, sources)),
+            covariance::adjoint(scene, sources),
         ),
     };
     let all = sources.iter().zip(forward).zip(&responses).enumerate().map(|(k, ((source, p), response))| {
@@ -159,9 +160,7 @@ fn linear(scene: &Scene, sources: &[Source]) -> Result<Vec<Contribution>, Error>
         if !response.is_empty() {
             said.push(Said { way: Way::Columns, first: 0, p: square(response) });
         }
-        if let Some(backward) = &backward {
-            said.push(Said { way: Way::Adjoint, first: scene.rows.len() - 1, p: vec![backward[k]] });
-        }
+        said.push(Said { way: Way::Adjoint, first: scene.rows.len() - 1, p: vec![backward[k]] });
         if let Some(response) = closed_form::response(scene, source) {
             said.push(Said { way: Way::Exact, first: 0, p: square(&response) });
         }

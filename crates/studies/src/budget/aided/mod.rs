@@ -2,7 +2,9 @@
 //! own model, its own start and its own noises, whatever is true.
 
 mod linear;
+pub mod nominal;
 mod runs;
+mod walker;
 
 pub use linear::linear;
 pub use runs::{Track, run};
@@ -16,7 +18,7 @@ use schuler_strapdown::{Vertical, filter::Form};
 
 use super::scene::Scene;
 use super::source::measurements;
-use crate::scenario::{Aid, BudgetFilter, MeasuredKind};
+use crate::scenario::{Aid, Aiding, BudgetFilter, MeasuredKind};
 use crate::simulate::aiding;
 use crate::trajectory::Moment;
 
@@ -24,16 +26,16 @@ use crate::trajectory::Moment;
 pub const MOST_STATES: usize = 64;
 
 /// An interval between measurements and rows.
-struct Interval {
-    begin: u64,
-    end: u64,
+pub struct Interval {
+    pub begin: u64,
+    pub end: u64,
     /// What is measured at its end, in this order.
-    due: Vec<MeasuredKind>,
+    pub due: Vec<MeasuredKind>,
 }
 
-/// The intervals of a scene: each ends at a measurement, at a row, or after [`super::covariance::INTERVAL`].
-fn schedule(scene: &Scene, filter: &BudgetFilter) -> Vec<Interval> {
-    let longest = ((super::covariance::INTERVAL / scene.dt + 1e-9) as u64).max(1);
+/// The intervals of a scene: each ends at a measurement, at a row, or when it is [long](super::covariance::longest).
+pub fn schedule(scene: &Scene, filter: &BudgetFilter) -> Vec<Interval> {
+    let longest = super::covariance::longest(scene);
     let due = |k: u64| -> Vec<MeasuredKind> {
         let t = scene.time(k);
         measurements(&filter.aiding)
@@ -56,6 +58,11 @@ fn schedule(scene: &Scene, filter: &BudgetFilter) -> Vec<Interval> {
         }
     }
     all
+}
+
+/// The settings of one kind of measurement.
+fn aid(aiding: &Aiding, kind: MeasuredKind) -> Option<&Aid> {
+    measurements(aiding).find(|(k, _)| *k == kind).map(|(_, aid)| aid)
 }
 
 /// The navigation errors that the filter estimates.

@@ -1,14 +1,18 @@
 //! Budgets with a filter running.
 
-use nalgebra::SMatrix;
-use schuler_imu::{Instrument, Source as Imu, Spec, Stream};
-use schuler_strapdown::filter::{Dual, Filter, Form, Model, NavStates, Now, Propagation, Velocity};
+use nalgebra::{DMatrix, DVector, SMatrix, SVector};
+use schuler_imu::{Instrument, Spec};
+use schuler_strapdown::filter::{
+    Accumulator, Dual, Filter, Form, Model, NavStates, Now, Propagation, Velocity,
+};
 
+use super::super::aided::nominal::{Nominal, Passed};
+use super::super::passage::samples;
 use super::super::scene::Scene;
 use super::super::source::{Kind, sources};
 use super::super::{TOTAL, Way, linear, monte_carlo, report};
 use super::*;
-use crate::scenario::{Aid, Aiding, BudgetFilter};
+use crate::scenario::{Aid, Aiding, BudgetFilter, MeasuredKind};
 use schuler_frames::Vec3;
 use schuler_strapdown::filter::measurement::{HORIZONTAL, Measurement};
 
@@ -42,8 +46,8 @@ fn few() -> Spec {
     .unwrap()
 }
 
-/// Where the filter believes what is true, the rows sum to its own covariance (1e-9 of the standard deviations), which at
-/// 45 deg after ten minutes is 4.142 arcmin of heading (tests/data/static_theory/align_kf_cov.csv, 4.152 from a heading
+/// Where the filter believes what is true, the rows sum to its own covariance, but for what its transitions leave out of an
+/// interval of a second (two Schuler rates, 1.5e-6), which at 45 deg after ten minutes is 4.142 arcmin of heading (tests/data/static_theory/align_kf_cov.csv, 4.152 from a heading
 /// that is not known at all).
 #[test]
 fn rows_of_a_right_filter_sum_to_its_own_covariance() {
@@ -52,7 +56,7 @@ fn rows_of_a_right_filter_sum_to_its_own_covariance() {
     let all = linear(&scene, &sources(&study)).unwrap();
     let (total, own) = (said(&all, TOTAL, Way::Covariance), said(&all, TOTAL, Way::Sigma));
     let x = apart(total, own);
-    assert!(x < 2e-9, "{x:e}");
+    assert!(x < 2e-5, "{x:e}");
     let heading = report::sigma(total.last().unwrap(), 8) / ARCMIN;
     assert!((heading - 4.148).abs() < 0.008, "{heading}");
     // Responses of constants through the gains are the same by another way.
@@ -69,7 +73,7 @@ fn rows_of_a_right_filter_sum_to_its_own_covariance() {
 }
 
 /// Rows of a wrong filter sum to one dual-state covariance of everything at once, written for the whole errors: that one
-/// takes small differences of large numbers (of velocities of metres a second, which leaves seven digits).
+/// takes small differences of large numbers (of velocities of metres a second), and its filter has exact transitions.
 #[test]
 fn rows_of_a_wrong_filter_sum_to_one_covariance() {
     let mut study = at_rest(few());
@@ -105,7 +109,7 @@ fn rows_of_a_wrong_filter_sum_to_one_covariance() {
                 for (j, b) in full.into_iter().enumerate() {
                     let unit = (together[(i, i)] * together[(j, j)]).sqrt();
                     let off = (p[(a, b)] - together[(i, j)]).abs() / unit;
-                    assert!(off < 2e-6, "{k} s: {a} {b}: {off:e}");
+                    assert!(off < 3e-5, "{k} s: {a} {b}: {off:e}");
                 }
             }
         }
@@ -116,7 +120,7 @@ fn rows_of_a_wrong_filter_sum_to_one_covariance() {
 }
 
 /// A vehicle that moves and turns, with positions and a baro height, a lever arm and an outage.
-fn driven(size: f64) -> Budget {
+pub fn driven(size: f64, rate: f64) -> Budget {
     use Instrument::{Accel, Gyro};
     let spec = Spec::from_sources([
         source(Gyro, "bias", "constant", "sigma", (5.0 * DEG_PER_HOUR * size).into()),
@@ -127,7 +131,7 @@ fn driven(size: f64) -> Budget {
     ])
     .unwrap();
     let known = spec.keep(|c| c.term().name() == "bias");
-    let mut study = budget(47.0, 20.0, 60.0, spec, Vec::new());
+    let mut study = budget(47.0, rate, 60.0, spec, Vec::new());
     study.start.velocity = [15.0, 0.0, 0.0];
     study.motion = Motion::Shaken(Box::new(Motion::ConstantVelocity), Default::default());
     let turning = crate::trajectory::Sine { amplitude: 0.6, omega: 2.0 * PI / 20.0, phase: 0.0 };
@@ -135,61 +139,23 @@ fn driven(size: f64) -> Budget {
         axes.yaw = vec![turning];
     }
     study.mechanization.vertical = Vertical::Free;
-    let position = Aid { lever_arm: [1.0, 0.5, -1.0], outages: vec![[40.0, 50.0]], ..aid(20, 1.0) };
-    let velocity = Aid { lever_arm: [1.0, 0.5, -1.0], ..aid(40, 0.1) };
+    let position = Aid { lever_arm: [1.0, 0.5, -1.0], outages: vec![[40.0, 50.0]], ..aid(rate as u64, 1.0) };
+    let velocity = Aid { lever_arm: [1.0, 0.5, -1.0], ..aid(2 * rate as u64, 0.1) };
     let aiding = Aiding {
         position: Some(position),
         velocity: Some(velocity),
-        height: Some(aid(10, 0.5)),
-        heading: Some(aid(20, 0.02)),
+        height: Some(aid(rate as u64 / 2, 0.5)),
+        heading: Some(aid(rate as u64, 0.02)),
     };
     let sigma = [2.0, 2.0, 2.0, 0.2, 0.2, 0.2, 3e-3, 3e-3, 1e-2];
     study.filter = Some(BudgetFilter { spec: known, sigma, believed: aiding.clone(), aiding });
     study
 }
 
-/// Responses of constants through the gains against half the difference of full aided runs of the opposite sign: what is left
-/// are transitions made along the computed path in place of the true one, and gathered in other pieces.
-#[test]
-fn columns_through_a_filter_meet_half_differences() {
-    let study = driven(0.1);
-    let scene = Scene::new(&study, Some(5.0));
-    let track = monte_carlo::Track::new(&scene);
-    let all = sources(&study);
-    let found = linear(&scene, &all).unwrap();
-    let mut compared = 0;
-    for (source, c) in all.iter().zip(&found) {
-        let (Kind::Sensor(component), Some(columns)) = (&source.kind, c.of(Way::Columns)) else { continue };
-        let mut values = vec![0.0; component.term().len()];
-        values[component.coefficient()] = source.size().unwrap().value;
-        let value = [("value", Value::Each(&values))];
-        let fixed = Imu::named(component.instrument(), component.term().name(), "constant", &value);
-        let fixed = Spec::from_sources([fixed.unwrap()]).unwrap();
-        let [plus, minus] = [1.0, -1.0].map(|sign| {
-            let spec = &fixed.scaled(sign);
-            let stream = Stream { seed: 1, run: 0 };
-            let one = monte_carlo::Run { track: &track, sources: &[], spec, initial: [0.0; 9], stream };
-            one.navigate(&scene).unwrap()
-        });
-        for k in 0..9 {
-            let largest = columns.iter().map(|p| report::sigma(p, k)).fold(0.0, f64::max);
-            if largest < [1e-3, 1e-4, 1e-5][k / 3] {
-                continue;
-            }
-            for ((p, m), column) in plus.iter().zip(&minus).zip(columns) {
-                let off = ((0.5 * (p[k] - m[k])).abs() - report::sigma(column, k)).abs();
-                assert!(off < 5e-3 * largest, "{} error {k}: {off:e} of {largest:e}", source.name);
-                compared += 1;
-            }
-        }
-    }
-    assert!(compared > 200, "{compared}");
-}
-
 /// Aided runs with every noise against the dual-state covariance, which the filter's own is not.
 #[test]
 fn aided_runs_meet_the_dual_covariance() {
-    let mut study = driven(1.0);
+    let mut study = driven(1.0, 20.0);
     study.runs = 200;
     study.initial_sigmas = initial(1.0);
     let scene = Scene::new(&study, Some(20.0));
@@ -208,4 +174,108 @@ fn aided_runs_meet_the_dual_covariance() {
     // Noises have rows of their own: three positions, three velocities, height and heading.
     let noises = list.iter().filter(|s| matches!(s.kind, Kind::Noise(_))).count();
     assert_eq!(noises, 8);
+}
+
+/// The covariance at each row of everything at once: r, the states of all sources and b, updated by
+/// (I - k h') P (I - k h')' + k r k'.
+fn together(study: &Budget, scene: &Scene) -> Vec<Nine> {
+    const ALL: usize = 64;
+    let filter = study.filter.as_ref().unwrap();
+    let mut nominal = Nominal::<24>::new(scene, filter, &[]).unwrap();
+    let model = Model::<ALL>::new(Form::Phi, NavStates::ALL, &study.imu.spec).unwrap();
+    let (truth, first) = (model.len(), scene.moment(0.0).0);
+    let all = truth + nominal.estimated();
+    let mut p = DMatrix::<f64>::zeros(all, all);
+    let states = model.p0(&[0.0; 9]).unwrap();
+    p.view_mut((0, 0), (truth, truth)).copy_from(&states.view((0, 0), (truth, truth)));
+    for source in sources(study) {
+        for (k, sigma) in source.initial().into_iter().enumerate() {
+            p[(k, k)] += sigma * sigma;
+        }
+    }
+    let mut rows = vec![Nine::from_fn(|i, j| p[(i, j)])];
+    let mut accumulator = Accumulator::new(&model, scene.dynamics(), &first);
+    let (pva, f_b) = scene.moment(0.0);
+    let system = Form::Phi.system(&scene.dynamics(), &pva, f_b);
+    for interval in super::super::aided::schedule(scene, filter) {
+        let samples = samples(scene, interval.begin, interval.end);
+        let mut passed: Vec<Passed> = Vec::new();
+        nominal.pass(&interval, &samples, &mut passed).unwrap();
+        for passed in passed {
+            let some = (passed.begin - interval.begin) as usize..(passed.end - interval.begin) as usize;
+            let step = if scene.steady {
+                let count = some.len() as u64;
+                Propagation::exact(&model, &system, &scene.seen(0, count), scene.time(count))
+            } else {
+                for s in &samples[some] {
+                    accumulator.step_seen(&model, &s.pva, &s.seen, &s.increments, scene.dt);
+                }
+                accumulator.close(&model)
+            };
+            let mut a = DMatrix::<f64>::identity(all, all);
+            a.view_mut((0, 0), (truth, truth)).copy_from(&step.phi().view((0, 0), (truth, truth)));
+            a.view_mut((0, 0), (9, 9)).copy_from(&passed.phi_nn);
+            a.view_mut((0, truth), (9, all - truth)).copy_from(&-&passed.phi_nb);
+            if let Some(phi_bb) = &passed.phi_bb {
+                a.view_mut((truth, truth), (all - truth, all - truth)).copy_from(phi_bb);
+            }
+            p = &a * p * a.transpose();
+            let mut of_truth = p.view_mut((0, 0), (truth, truth));
+            of_truth += step.q().view((0, 0), (truth, truth));
+            for gain in &passed.gains {
+                let (mut h, mut k) = (DVector::zeros(all), DVector::zeros(all));
+                h.rows_mut(0, 9).copy_from(&gain.h_n);
+                k.rows_mut(0, 9).copy_from(&gain.k_n);
+                h.rows_mut(truth, all - truth).copy_from(&-&gain.h_b);
+                k.rows_mut(truth, all - truth).copy_from(&-&gain.k_b);
+                for state in 9..truth {
+                    let mut unit = SVector::<f64, ALL>::zeros();
+                    unit[state] = 1.0;
+                    let e = model.sensor_error(Instrument::Gyro, &unit, &passed.seen, scene.dt);
+                    h[state] = (0..3).map(|axis| gain.h_gyro[axis] * e[axis]).sum();
+                }
+                let aid = match gain.kind {
+                    MeasuredKind::Position => &filter.aiding.position,
+                    MeasuredKind::Velocity => &filter.aiding.velocity,
+                    MeasuredKind::Height => &filter.aiding.height,
+                    MeasuredKind::Heading => &filter.aiding.heading,
+                };
+                let left = DMatrix::identity(all, all) - &k * h.transpose();
+                let r = aid.as_ref().unwrap().sigma[gain.axis].powi(2);
+                p = &left * p * left.transpose() + &k * k.transpose() * r;
+            }
+            if scene.rows.contains(&passed.end) {
+                rows.push(Nine::from_fn(|i, j| p[(i, j)]));
+            }
+        }
+    }
+    rows
+}
+
+/// Rows sum to the covariance of everything at once, forward and back from the last row, through right and wrong filters, at
+/// rest and on the move.
+#[test]
+fn rows_through_a_filter_sum_to_one_covariance() {
+    let mut wrong = at_rest(few());
+    wrong.filter.as_mut().unwrap().spec = few().scaled(0.2);
+    let mut moving = driven(1.0, 20.0);
+    moving.initial_sigmas = initial(1.0);
+    for study in [at_rest(few()), wrong, moving] {
+        let scene = Scene::new(&study, Some(20.0));
+        let all = linear(&scene, &sources(&study)).unwrap();
+        let whole = together(&study, &scene);
+        let x = apart(said(&all, TOTAL, Way::Covariance), &whole);
+        let last = &whole[whole.len() - 1..];
+        let y = apart(said(&all, TOTAL, Way::Adjoint), last);
+        assert!(x < 1e-9 && y < 1e-12, "{x:e} {y:e}");
+        for c in &all {
+            // Of the largest that the row has been: what the filter takes out of it leaves rounding of that. Twice 1e-9, of a
+            // variance.
+            let forward = c.of(Way::Covariance).unwrap();
+            let mut other = forward.to_vec();
+            other[forward.len() - 1] = c.of(Way::Adjoint).unwrap()[0];
+            let x = apart(&other, forward);
+            assert!(x < 2e-9, "{}: adjoint {x:e}", c.name);
+        }
+    }
 }

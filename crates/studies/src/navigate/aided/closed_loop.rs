@@ -29,7 +29,8 @@ pub struct ClosedLoop<const N: usize> {
     stale: bool,
     gravity: Gravity,
     vertical: Vertical,
-    /// What the sensors saw last, freed of the errors known, and its interval (s).
+    /// What the sensors measured last, the same freed of the errors known, and its interval (s).
+    measured: Option<Increments>,
     seen: (Increments, f64),
 }
 
@@ -59,6 +60,7 @@ impl<const N: usize> ClosedLoop<N> {
             gathered: Gathered::default(),
             gravity,
             vertical,
+            measured: None,
             seen: (Increments { dtheta: Vec3::ZERO, dv: Vec3::ZERO }, 1.0),
         }
     }
@@ -70,12 +72,10 @@ impl<const N: usize> ClosedLoop<N> {
             self.errors.refresh(&self.filter);
             self.stale = false;
         }
-        let (dtheta, dv) = (measured.dtheta.as_array(), measured.dv.as_array());
-        let [gyro, accel] = self.errors.integrated(&self.filter, dtheta, dv, dt);
-        let freed =
-            Increments { dtheta: measured.dtheta - Vec3::claim(gyro), dv: measured.dv - Vec3::claim(accel) };
+        let freed = self.freed(measured, dt);
         self.navigator.step(&freed, dt);
         self.gathered.push(&freed, dt);
+        self.measured = Some(*measured);
         self.seen = (freed, dt);
         if self.gathered.is_full(dt) {
             self.gather();
@@ -83,6 +83,14 @@ impl<const N: usize> ClosedLoop<N> {
                 self.close();
             }
         }
+    }
+
+    /// `measured` over `dt` (s), freed of the sensor errors known.
+    #[inline]
+    fn freed(&self, measured: &Increments, dt: f64) -> Increments {
+        let (dtheta, dv) = (measured.dtheta.as_array(), measured.dv.as_array());
+        let [gyro, accel] = self.errors.integrated(&self.filter, dtheta, dv, dt);
+        Increments { dtheta: measured.dtheta - Vec3::claim(gyro), dv: measured.dv - Vec3::claim(accel) }
     }
 
     /// Hands the samples gathered to the accumulator.
@@ -109,15 +117,35 @@ impl<const N: usize> ClosedLoop<N> {
     /// Numbers that make no sense.
     pub fn measure(&mut self, measurement: &dyn Measurement) -> Result<Outcome, FilterError> {
         self.close();
-        let pva = self.navigator.pva();
-        let outcome = self.filter.update(measurement, &Now { pva, seen: self.truth(), dt: self.seen.1 })?;
+        let now = self.now();
+        let (pva, outcome) = (now.pva, self.filter.update(measurement, &now)?);
         if outcome.accepted[..outcome.len].contains(&true) {
             let pva = self.filter.feedback(&pva);
             self.navigator = LocalLevel::new(&pva, self.gravity, self.vertical);
             self.accumulator.begin(self.filter.model(), &pva);
-            self.stale = true;
+            // The next measurement at this time has the rate freed of what is known now, as its row says.
+            self.errors.refresh(&self.filter);
+            self.stale = false;
+            if let Some(measured) = &self.measured {
+                self.seen.0 = self.freed(measured, self.seen.1);
+            }
         }
         Ok(outcome)
+    }
+
+    /// Where the navigator is, as a measurement would meet it.
+    pub fn now(&self) -> Now {
+        Now { pva: self.navigator.pva(), seen: self.truth(), dt: self.seen.1 }
+    }
+
+    /// The filter, at the time of the last [`ClosedLoop::close`].
+    pub fn filter(&self) -> &Filter<N> {
+        &self.filter
+    }
+
+    /// Time since the last [`ClosedLoop::close`], whoever asked for it, s: zero right after it.
+    pub fn since_close(&self) -> f64 {
+        self.accumulator.elapsed() + self.gathered.t
     }
 
     /// Angular rate omega_eb^b (rad/s) and specific force (m/s²) of the last step, freed of the errors known.
