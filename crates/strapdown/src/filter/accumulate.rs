@@ -54,7 +54,7 @@ pub struct Accumulator<const N: usize> {
     pub(super) isotropic: [Option<f64>; 2],
     /// Source states, from the first of them on.
     pub(super) columns: Columns<N>,
-    /// Direction in t in which each block has entered, integrated, where that depends on the input.
+    /// Direction in t in which each source state has entered, integrated, where that depends on the input; else zero.
     pub(super) way: [[f64; N]; 3],
     /// The same times the time since the start of the interval.
     pub(super) way_by_time: [[f64; N]; 3],

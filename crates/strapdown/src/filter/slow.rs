@@ -2,7 +2,7 @@
 
 use fearless_simd::{Simd, SimdBase, SimdFrom, f64x4};
 use nalgebra::Vector3;
-use schuler_frames::{B, Geodetic, T, Vec3, earth};
+use schuler_frames::{Geodetic, Rot, Vec3, earth};
 
 use super::padded::{Columns3, Padded};
 use super::{Accumulator, Form, Model, Propagation};
@@ -36,10 +36,11 @@ impl<const N: usize> Accumulator<N> {
                 0.5 * (a.position.h + b.position.h),
             ),
             v_t: a.v_t + Vec3::new(mean[0], mean[1], mean[2]),
-            c_tb: b.c_tb,
+            // Of the attitude nothing but the force in t matters.
+            c_tb: Rot::IDENTITY,
         };
-        let f_b: Vec3<B> = b.c_tb.inverse() * Vec3::<T>::claim([force[0], force[1], force[2]]);
-        let mut system = model.form().system(&self.dynamics, &middle, f_b);
+        let force = Vec3::new(force[0], force[1], force[2]);
+        let mut system = model.form().system(&self.dynamics, &middle, force);
         let s = &mut system.f;
         let rho_by_v = s.fixed_view::<3, 3>(6, 3).into_owned();
         for (axis, free) in [1.0, 1.0, self.down()].into_iter().enumerate() {
