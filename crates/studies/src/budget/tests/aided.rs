@@ -154,7 +154,7 @@ fn driven(size: f64) -> Budget {
 fn columns_through_a_filter_meet_half_differences() {
     let study = driven(0.1);
     let scene = Scene::new(&study, Some(5.0));
-    let track = monte_carlo::Track::new(&scene);
+    let track = monte_carlo::Track::new(&scene).unwrap();
     let all = sources(&study);
     let found = linear(&scene, &all).unwrap();
     let mut compared = 0;
@@ -193,7 +193,7 @@ fn aided_runs_meet_the_dual_covariance() {
     study.runs = 200;
     study.initial_sigmas = initial(1.0);
     let scene = Scene::new(&study, Some(20.0));
-    let track = monte_carlo::Track::new(&scene);
+    let track = monte_carlo::Track::new(&scene).unwrap();
     let list = sources(&study);
     let all = linear(&scene, &list).unwrap();
     let theory = said(&all, TOTAL, Way::Covariance);

@@ -202,7 +202,7 @@ fn columns_meet_half_differences() {
     }
     let study = budget(45.0, 10.0, 7200.0, spec, initial(0.1));
     let scene = Scene::new(&study, Some(600.0));
-    let track = monte_carlo::Track::new(&scene);
+    let track = monte_carlo::Track::new(&scene).unwrap();
     let all = sources(&study);
     let responses = super::columns::responses(&scene, &all);
     let mut compared = 0;
@@ -263,7 +263,7 @@ fn runs_meet_the_covariance() {
     let mut study = budget(45.0, 1.0, 3600.0, spec, initial(1.0));
     study.runs = 400;
     let scene = Scene::new(&study, Some(1800.0));
-    let track = monte_carlo::Track::new(&scene);
+    let track = monte_carlo::Track::new(&scene).unwrap();
     let list = sources(&study);
     let all = linear(&scene, &list).unwrap();
     let sigma = (2.0 / study.runs as f64).sqrt();
@@ -380,7 +380,7 @@ fn ways_agree_along_a_flight() {
         let x = apart(c.of(Way::Adjoint).unwrap(), &covariance[covariance.len() - 1..]);
         assert!(x < 2e-9, "{}: adjoint {x:e}", c.name);
     }
-    let track = monte_carlo::Track::new(&scene);
+    let track = monte_carlo::Track::new(&scene).unwrap();
     let fixed = source(Gyro, "scale_factor", "constant", "value", Value::Each(&[0.0, 1e-5, 0.0]));
     let fixed = Spec::from_sources([fixed]).unwrap();
     let [plus, minus] = [1.0, -1.0].map(|sign| {
