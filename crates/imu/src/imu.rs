@@ -10,7 +10,7 @@ use crate::readout::{Chain, Status};
 use crate::sample::Sample;
 use crate::state::State;
 use crate::sums::Sums;
-use crate::truth::Inputs;
+use crate::truth::{Inputs, Octet};
 use crate::{Component, Instrument, Motion, Spec, Stream, Truth};
 
 /// An IMU with its errors.
@@ -116,6 +116,35 @@ impl Imu {
             } else {
                 self.step_into(&truths[at], &mut samples[at]);
                 at += 1;
+            }
+        }
+    }
+
+    /// The next eight samples, over the intervals of `octet`, of which only the increments are of interest: in `increments` those of
+    /// angle (rad), then those of velocity (m/s), of each axis eight. The same numbers as by [`Imu::steps`]; what the motion
+    /// is to the terms has been worked out once for all instruments that go through it.
+    pub fn octet(&mut self, octet: &Octet, increments: &mut [[[f64; STEPS]; 3]; 2]) {
+        let ready = self.set_step(octet.dt) && self.row() == 0 && self.state.bank.is_settled();
+        let alike = self.chains.is_none() && octet.calibration == self.spec.calibration_temperature;
+        let Some(truth) = octet.increments.as_ref().filter(|_| ready && alike) else {
+            let mut samples = [Sample::default(); STEPS];
+            self.steps(octet.dt, octet.truths(), &mut samples);
+            for (row, sample) in samples.iter().enumerate() {
+                for i in 0..3 {
+                    (increments[0][i][row], increments[1][i][row]) = (sample.dtheta[i], sample.dv[i]);
+                }
+            }
+            return;
+        };
+        self.inputs.clone_from(&octet.inputs);
+        self.begin(STEPS);
+        let of = Instrument::ALL.into_iter().zip(&mut self.errors).zip(truth.iter().zip(increments));
+        for ((instrument, errors), (truth, increments)) in of {
+            self.sums.errors(instrument, &self.inputs, errors);
+            for i in 0..3 {
+                for row in 0..STEPS {
+                    increments[i][row] = truth[i][row] + errors[i][row] * octet.dt;
+                }
             }
         }
     }

@@ -61,5 +61,5 @@ pub use spec::{MAX_SOURCES, Spec};
 pub use state::State;
 pub use temperature::Temperature;
 pub use term::{TERMS, Term, term};
-pub use truth::{Input, Motion, Seen, Truth};
+pub use truth::{Input, Motion, Octet, Seen, Truth};
 pub use unit::Unit;

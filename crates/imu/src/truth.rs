@@ -140,6 +140,44 @@ pub(crate) struct Inputs {
     vibration: [[f64; STEPS]; 3],
 }
 
+/// Eight consecutive intervals as the terms take them: made once for all instruments that go through them, see
+/// [`Imu::octet`](crate::Imu::octet).
+#[derive(Clone, Debug)]
+pub struct Octet {
+    truths: [Truth; STEPS],
+    pub(crate) dt: f64,
+    pub(crate) calibration: f64,
+    pub(crate) inputs: Inputs,
+    /// Of the rate and of the force, the increments of each axis; none where a motion is given as rates.
+    pub(crate) increments: Option<[[[f64; STEPS]; 3]; 2]>,
+}
+
+impl Octet {
+    /// The intervals `truths`, all of `dt` seconds, for instruments calibrated at `calibration` (K).
+    pub fn new(truths: [Truth; STEPS], dt: f64, calibration: f64) -> Octet {
+        let mut inputs = Inputs::NONE;
+        let mut all = [[[0.0; STEPS]; 3]; 2];
+        let mut increments = true;
+        for (row, truth) in truths.iter().enumerate() {
+            inputs.set(row, truth, dt, calibration);
+            match truth.motion {
+                Motion::Rates { .. } => increments = false,
+                Motion::Increments { dtheta, dv } => {
+                    for i in 0..3 {
+                        (all[0][i][row], all[1][i][row]) = (dtheta[i], dv[i]);
+                    }
+                }
+            }
+        }
+        Octet { truths, dt, calibration, inputs, increments: increments.then_some(all) }
+    }
+
+    /// What it was made of.
+    pub fn truths(&self) -> &[Truth; STEPS] {
+        &self.truths
+    }
+}
+
 /// What one instrument sees in eight steps.
 #[derive(Clone, Copy, Debug)]
 pub struct Seen<'a> {

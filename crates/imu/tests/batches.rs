@@ -2,7 +2,7 @@
 
 use schuler_imu::readout::{Bandwidth, Channel, Faults, Lsb, Timing};
 use schuler_imu::{
-    Imu, Instrument, Process, Readout, Sample, Source, Spec, Stream, TERMS, Truth, process_kind,
+    Imu, Instrument, Octet, Process, Readout, Sample, Source, Spec, Stream, TERMS, Truth, process_kind,
 };
 
 use super::examples::{on_bias, processes};
@@ -71,6 +71,42 @@ fn a_batch_is_its_samples_one_by_one() {
             assert!(many.ledger().eq(one.ledger()));
             assert_eq!(many.readout_errors(), one.readout_errors());
             k += chunk;
+        }
+    }
+}
+
+/// Eight intervals worked out once are the same samples: of increments, rates, both mixed; for instruments calibrated otherwise, with a
+/// readout, and in the middle of eight steps.
+#[test]
+fn octets_shared_by_instruments_are_the_samples() {
+    let motions: [fn(usize) -> Truth; 3] = [
+        |k| Truth { motion: truth(3).motion, ..truth(k) },
+        |k| Truth { motion: truth(1).motion, ..truth(k) },
+        truth,
+    ];
+    for (readout, skipped) in [(None, 0), (None, 3), (Some(readout()), 0)] {
+        let mut spec = spec();
+        spec.readout = readout;
+        let stream = Stream { seed: 3, run: 9 };
+        let (mut many, mut one) = (Imu::new(&spec, stream).unwrap(), Imu::new(&spec, stream).unwrap());
+        for imu in [&mut many, &mut one] {
+            (0..skipped).for_each(|k| {
+                imu.step(0.01, &truth(k));
+            });
+        }
+        for k in 0..30 {
+            let dt = if k == 20 { 0.0 } else { 0.01 };
+            let calibration = spec.calibration_temperature + if k % 5 == 4 { 1.0 } else { 0.0 };
+            let octet = Octet::new(std::array::from_fn(|row| motions[k % 3](8 * k + row)), dt, calibration);
+            let mut increments = [[[0.0; 8]; 3]; 2];
+            many.octet(&octet, &mut increments);
+            for (row, truth) in octet.truths().iter().enumerate() {
+                let sample = one.step(dt, truth);
+                let found = increments.map(|axes| axes.map(|axis| axis[row].to_bits()));
+                assert_eq!(found, [sample.dtheta, sample.dv].map(|x| x.map(f64::to_bits)), "{k}, {row}");
+            }
+            assert_eq!(many.save(), one.save());
+            assert!(many.ledger().eq(one.ledger()));
         }
     }
 }

@@ -15,10 +15,10 @@ use schuler_imu::{
     process::{Innovation, Step},
 };
 use schuler_strapdown::{Increments, LocalLevel, Pva, Vertical};
-use schuler_studies::{Context, Scenario, monte_carlo, scenario::Study};
+use schuler_studies::{Context, Record, Scenario, monte_carlo, scenario::Study};
 
 const RATE: u64 = 200;
-const SAMPLES: u64 = 20_000;
+const SAMPLES: u64 = 40_000;
 const RUNS: u64 = 128;
 
 fn main() {
@@ -47,19 +47,36 @@ output: {{ every: 10 s, formats: [csv] }}
     Scenario::load("bench.yaml", &text, &[]).expect("a scenario")
 }
 
-fn whole(bencher: Bencher, motion: &str, threads: usize) {
-    let scenario = scenario(motion, RUNS);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+fn pool(threads: usize) -> rayon::ThreadPool {
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads")
+}
+
+fn study(scenario: &Scenario, pool: &rayon::ThreadPool) -> Record {
     let Study::MonteCarlo(study) = &scenario.study else { unreachable!("a Monte Carlo") };
-    bencher.counter(ItemsCount::new(RUNS * SAMPLES)).bench_local(|| {
-        pool.install(|| monte_carlo::run(&scenario, study, &Context::silent()).expect("runs"))
-    });
+    pool.install(|| monte_carlo::run(scenario, study, &Context::silent()).expect("runs"))
+}
+
+fn whole(bencher: Bencher, motion: &str, threads: usize) {
+    let (scenario, pool) = (scenario(motion, RUNS), pool(threads));
+    bencher.counter(ItemsCount::new(RUNS * SAMPLES)).bench_local(|| study(&scenario, &pool));
 }
 
 /// At rest.
 #[divan::bench(args = [1, 2], sample_count = 10)]
 fn runs(bencher: Bencher, threads: usize) {
     whole(bencher, "static", threads);
+}
+
+/// What the machine gives: two studies of one thread each, which share nothing. Two threads of one study cannot be faster.
+#[divan::bench(sample_count = 10)]
+fn runs_apart(bencher: Bencher) {
+    let two = [1, 2].map(|_| (scenario("static", RUNS), pool(1)));
+    bencher.counter(ItemsCount::new(2 * RUNS * SAMPLES)).bench_local(|| {
+        std::thread::scope(|scope| {
+            let started = two.each_ref().map(|(scenario, pool)| scope.spawn(|| study(scenario, pool)));
+            started.map(|thread| thread.join().expect("runs"))
+        })
+    });
 }
 
 /// Along a flight, whose truth is calculated once for all runs and whose prediction sample by sample.

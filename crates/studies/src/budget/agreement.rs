@@ -12,6 +12,9 @@ use crate::record::{Cell, Table, columns};
 /// than what the second order does.
 const JUDGED: f64 = 1e-6;
 
+/// The same through a filter. It takes out what was large at first (degrees of heading), of which the second order stays.
+const JUDGED_AIDED: f64 = 4e-4;
+
 /// Share of the variances that chance alone leaves outside their 99 % band.
 const OUTSIDE: f64 = 0.01;
 
@@ -21,6 +24,10 @@ const ALL: &str = "all";
 /// Variances of the last row that runs have found, over those of the covariance.
 pub struct Agreement {
     runs: u64,
+    /// Part of the total variance below which nothing is judged.
+    least: f64,
+    /// Horizontal error at the end of a run in which nothing is wrong, m.
+    own: f64,
     rows: Vec<Row>,
 }
 
@@ -42,15 +49,21 @@ enum Draws {
 }
 
 impl Agreement {
-    /// What there is to judge; `None` without runs.
-    pub fn new(scene: &Scene, sources: &[Source], contributions: &[Contribution]) -> Option<Agreement> {
+    /// What there is to judge, and the horizontal error `own` (m) of a run in which nothing is wrong; `None` without runs.
+    pub fn new(
+        scene: &Scene,
+        sources: &[Source],
+        contributions: &[Contribution],
+        own: f64,
+    ) -> Option<Agreement> {
         let runs = scene.study.runs;
         let whole = total(contributions).last()?;
         let [low, high] = band(runs);
+        let least = if scene.study.filter.is_some() { JUDGED_AIDED } else { JUDGED };
         let row = |(k, c): (usize, &Contribution)| {
             let p = c.of(Way::Covariance)?.last()?;
             let q = c.of(Way::MonteCarlo)?.last()?;
-            let judged = (0..9).filter(|&k| p[(k, k)] > JUDGED * whole[(k, k)]);
+            let judged = (0..9).filter(|&k| p[(k, k)] > least * whole[(k, k)]);
             let ratios: Vec<f64> = judged.map(|k| q[(k, k)] / p[(k, k)]).collect();
             let outside = ratios.iter().filter(|ratio| !(low..=high).contains(*ratio)).count();
             let draws = sources.get(k).map(|source| match source.kind {
@@ -61,7 +74,7 @@ impl Agreement {
             Some(Row { name: c.name.clone(), ratios, outside, draws })
         };
         let rows: Vec<Row> = contributions.iter().enumerate().filter_map(row).collect();
-        (!rows.is_empty()).then_some(Agreement { runs, rows })
+        (!rows.is_empty()).then_some(Agreement { runs, least, own, rows })
     }
 
     /// `agreement.csv`.
@@ -98,16 +111,18 @@ impl Agreement {
         let of = match self.independent().count() {
             0 => String::new(),
             n => format!(
-                " (of {} of {n} sources; by chance so many or more with a probability of at most {chance:.2})",
+                " ({} of {n} sources have one; so many or more: probability {chance:.3} at most)",
                 self.independent().filter(|row| row.outside > 0).count()
             ),
         };
         format!(
-            "Monte Carlo of {} runs: {} of {} variances of the last row are outside their 99 % chi-square band [{low:.4}, {high:.4}] about the covariance{of}; one of all as far out as the furthest with at most {worst:.2}: {} (those below 0.1 % of the total in standard deviation are second order and not judged)",
+            "Monte Carlo of {} runs: {} of {} variances of the last row are outside their 99 % chi-square band [{low:.4}, {high:.4}] about the covariance{of}; the furthest of them: probability {worst:.3} at most; {} (below {} % of the total in standard deviation is second order and not judged; what the algorithm leaves without any error, {:.3} m at the end, is taken out)",
             self.runs,
             self.outside(),
             all.len(),
             if worst.min(chance) >= OUTSIDE { "they agree" } else { "NOT CONSISTENT" },
+            100.0 * self.least.sqrt(),
+            self.own,
         )
     }
 
@@ -178,7 +193,7 @@ mod tests {
             outside: ratios.iter().filter(|r| !(low..=high).contains(*r)).count(),
             draws: *draws,
         };
-        Agreement { runs, rows: rows.iter().map(row).collect() }
+        Agreement { runs, least: JUDGED, own: 0.0, rows: rows.iter().map(row).collect() }
     }
 
     /// Binomial: of ten at a tenth, two or more 1 - 0.9^10 - 10 0.1 0.9^9; and two unlike ones by hand.

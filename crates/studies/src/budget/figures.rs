@@ -41,28 +41,35 @@ pub fn figures(
         let sources = contributions.iter().filter(|c| c.name != TOTAL);
         sources.filter_map(|c| Some((c.name.as_str(), c.of(Way::Covariance)?)))
     };
-    let ordered = |size: fn(&Nine) -> f64| {
+    let ordered = |size: &dyn Fn(&[Nine]) -> f64| {
         let mut order: Vec<(&str, &[Nine])> = by_covariance().collect();
-        let end = |p: &[Nine]| p.last().map_or(0.0, size);
-        order.sort_by(|a, b| end(b.1).total_cmp(&end(a.1)));
+        order.sort_by(|a, b| size(b.1).total_cmp(&size(a.1)));
         order
     };
-    let order = ordered(|p| horizontal(p).trace());
-    let by_heading = ordered(|p| p[(8, 8)]);
+    let order = ordered(&|p| p.last().map_or(0.0, |p| horizontal(p).trace()));
+    // Who is large for a while has a band of its own, also where it is small at the end.
+    let largest = |share: Share| {
+        ordered(&|p| p.iter().zip(whole).map(|(p, whole)| share(p, whole)).fold(0.0, f64::max))
+    };
     let figure =
         |what: &str, x: Axis| Figure::new(format!("{title}: {what}"), x).subtitle(conditions.clone());
     vec![
         (
             "shares".into(),
-            figure("shares of the horizontal variance", Axis::time("time"))
-                .panel(shares(scene, whole, &order, beginning, share)),
+            figure("shares of the horizontal variance", Axis::time("time")).panel(shares(
+                scene,
+                whole,
+                &largest(share),
+                beginning,
+                share,
+            )),
         ),
         (
             "heading_shares".into(),
             figure("shares of the heading variance", Axis::time("time")).panel(shares(
                 scene,
                 whole,
-                &by_heading,
+                &largest(heading_share),
                 beginning,
                 heading_share,
             )),

@@ -82,7 +82,7 @@ const TOTAL: &str = "total";
 const BELIEVED: &str = "total, as the filter believes";
 
 /// Samples of a motion that Monte Carlo runs keep in memory.
-const MOST_SAMPLES: u64 = 4_000_000;
+const MOST_SAMPLES: u64 = 2_000_000;
 
 /// Runs a budget study.
 ///
@@ -105,8 +105,10 @@ pub fn run(scenario: &Scenario, study: &Budget, context: &Context) -> Result<Rec
     context.progress.begin("budget", 1 + units);
     let mut contributions = linear(&scene, &sources)?;
     context.progress.advance(1);
+    let mut own = 0.0;
     if study.runs > 0 {
-        let track = monte_carlo::Track::new(&scene);
+        let track = monte_carlo::Track::new(&scene)?;
+        own = track.own_horizontal();
         let each = study.runs_of_each;
         for (k, contribution) in
             contributions.iter_mut().enumerate().skip(if each { 0 } else { sources.len() })
@@ -120,7 +122,7 @@ pub fn run(scenario: &Scenario, study: &Budget, context: &Context) -> Result<Rec
 
     let mut record = Record::new(scenario, report::summary(&scene, &contributions));
     record.tables.push(report::table(&scene, &contributions));
-    let agreement = Agreement::new(&scene, &sources, &contributions);
+    let agreement = Agreement::new(&scene, &sources, &contributions, own);
     record.tables.extend(agreement.as_ref().map(|agreement| agreement.table(&scene)));
     record.notes = report::notes(&scene, &contributions, agreement.as_ref());
     if let Some(requirement) = &study.requirement {

@@ -2,7 +2,10 @@
 
 use rayon::prelude::*;
 use schuler_frames::{Vec3, with_phi, with_position_error};
-use schuler_imu::{Imu, Spec, Stream, random::Draws};
+use schuler_imu::{
+    Imu, Octet, Spec, Stream, Truth as Seen,
+    random::{Draws, STEPS},
+};
 use schuler_strapdown::{LANES, Pva};
 
 use super::scene::Scene;
@@ -12,23 +15,38 @@ use crate::{Error, monte_carlo::group::Group};
 
 /// What every run navigates along: input of the sensors, and what is measured.
 pub struct Track {
-    inputs: Vec<schuler_imu::Truth>,
+    seen: Vec<Octet>,
+    /// Errors at each row of a run in which nothing is wrong: what the algorithm makes of finite samples. It is no source's, and is
+    /// taken out of all runs.
+    own: Vec<[f64; 9]>,
     measured: Option<aided::Track>,
 }
 
 impl Track {
-    pub fn new(scene: &Scene) -> Track {
-        let inputs = if scene.steady {
-            Group::still(scene)
-        } else {
-            (0..scene.study.samples).into_par_iter().map(|k| scene.seen(k, 1)).collect()
-        };
-        Track { inputs, measured: scene.study.filter.as_ref().map(|filter| aided::Track::new(scene, filter)) }
+    /// The track of a scene.
+    ///
+    /// # Errors
+    /// A run in which nothing is wrong gives no numbers.
+    pub fn new(scene: &Scene) -> Result<Track, Error> {
+        let measured = scene.study.filter.as_ref().map(|filter| aided::Track::new(scene, filter));
+        let mut track = Track { seen: Group::seen(scene, 0, scene.study.samples), own: Vec::new(), measured };
+        let stream = Stream { seed: 0, run: 0 };
+        let right = Run { track: &track, sources: &[], spec: &Spec::new(), initial: [0.0; 9], stream };
+        track.own = together(scene, &[right])?.concat();
+        Ok(track)
+    }
+
+    /// Length of the horizontal error that the algorithm leaves by itself at the last row, m.
+    pub fn own_horizontal(&self) -> f64 {
+        self.own.last().map_or(0.0, |x| x[0].hypot(x[1]))
     }
 }
 
-/// Mean squares over the runs of a study under `sources` together, one for each row; run i is a pure function of the
-/// scenario, `seed` and i.
+/// Mean squares over the runs of a study under `sources` together, less what the algorithm leaves by itself, one for each row;
+/// run i is a pure function of the scenario, `seed` and i.
+///
+/// # Errors
+/// The IMU refuses its list; a run gives no numbers.
 pub fn covariance(scene: &Scene, track: &Track, sources: &[Source], seed: u64) -> Result<Vec<Nine>, Error> {
     let all = &scene.study.imu.spec;
     let spec = match sources {
@@ -53,8 +71,8 @@ pub fn covariance(scene: &Scene, track: &Track, sources: &[Source], seed: u64) -
             })
             .collect();
         for rows in made?.iter().flatten() {
-            for (sum, row) in sums.iter_mut().zip(rows) {
-                *sum += super::columns::covariance(row);
+            for ((sum, row), own) in sums.iter_mut().zip(rows).zip(&track.own) {
+                *sum += super::columns::covariance(&std::array::from_fn(|k| row[k] - own[k]));
             }
         }
     }
@@ -87,7 +105,7 @@ pub fn together(scene: &Scene, runs: &[Run]) -> Result<Vec<Vec<[f64; 9]>>, Error
     let keeps = spec.components().all(|c| c.evolution().is_constant());
     let streams = runs.iter().map(|one| one.stream).collect();
     let mut group = Group::new(scene, spec, streams, |lane, imu| runs[lane].begin(scene, imu, keeps))?;
-    group.advance(scene, 0, scene.study.samples, &track.inputs)?;
+    group.advance(scene, 0, scene.study.samples, &track.seen)?;
     Ok(group.errors)
 }
 
@@ -122,7 +140,8 @@ impl Run<'_> {
     }
 
     /// What the sensors go through in a sample.
-    pub fn seen(&self, scene: &Scene, sample: u64) -> &schuler_imu::Truth {
-        &self.track.inputs[if scene.steady { 0 } else { sample as usize }]
+    pub fn seen(&self, scene: &Scene, sample: u64) -> &Seen {
+        let sample = if scene.steady { 0 } else { sample as usize };
+        &self.track.seen[sample / STEPS].truths()[sample % STEPS]
     }
 }

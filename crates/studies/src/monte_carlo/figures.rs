@@ -41,7 +41,10 @@ pub fn figures(
             all.push((stem.to_string(), figure));
         }
     }
-    all.push(("horizontal".into(), figure("horizontal position error").panel(radii(scene, statistics))));
+    all.push((
+        "horizontal".into(),
+        figure("horizontal position error").panel(radii(scene, statistics, predicted)),
+    ));
     if let Some(panel) = nees(scene, statistics) {
         all.push(("nees".into(), figure("normalized error squared").panel(panel)));
     }
@@ -92,7 +95,7 @@ fn cloud(
     Some(panel)
 }
 
-fn radii(scene: &Scene, statistics: &Statistics) -> Panel {
+fn radii(scene: &Scene, statistics: &Statistics, predicted: Option<&[Predicted]>) -> Panel {
     let rows = 0..scene.rows.len();
     let at = |row: usize, figure| statistics.figure(row, HORIZONTAL, figure);
     let q99 = RunFigure::Quantile(0.99);
@@ -112,6 +115,11 @@ fn radii(scene: &Scene, statistics: &Statistics) -> Panel {
             let label = if named { "" } else { "99 % confidence" };
             panel = panel.with(Series::line(label, line).style(Style::Dotted).colour(Colour::palette(k)));
             named = true;
+        }
+        if let Some(p) = predicted {
+            let line = rows.clone().map(|row| [time(row), p[row].quantile(HORIZONTAL, share) * shown.per_si]);
+            let label = if k == 0 { "predicted" } else { "" };
+            panel = panel.with(Series::line(label, line).style(Style::Dashed).colour(Colour::palette(k)));
         }
     }
     panel

@@ -1,13 +1,18 @@
 //! Runs of the full navigator, in lanes of eight.
 
+use std::ops::Range;
+
+use rayon::prelude::*;
 use schuler_frames::Vec3;
-use schuler_imu::{Imu, Sample, Spec, Stream, Truth as Seen};
+use schuler_imu::{Imu, Octet, Spec, Stream, random::STEPS};
 use schuler_strapdown::{Coning, Eight, Increments, LANES, LocalLevelLanes, NavError, Pva};
 
 use crate::{Error, course::Course, navigator::Navigator, scenario::Frame};
 
-/// Samples that one run is ahead of its neighbours: what eight instruments say of them stays in the nearest cache.
-const BLOCK: usize = 32;
+/// Eights of samples that one run is ahead of its neighbours: what eight instruments say of them stays in the nearest cache.
+const AHEAD: usize = 4;
+/// The same in samples.
+const BLOCK: usize = AHEAD * STEPS;
 
 /// Samples as long as this (s) are navigated run by run: each takes trigonometry, for which lanes are no help.
 const LONGEST: f64 = 0.3;
@@ -19,10 +24,28 @@ pub struct Group {
     navigators: Navigators,
     /// At rest, errors that keep their value give the same sample every time: it is made once.
     same: bool,
-    samples: Vec<[Sample; BLOCK]>,
+    /// Of each run what its instruments said last.
+    said: Vec<Said>,
+    /// The same across runs, sample by sample.
     block: Vec<Increments<Eight>>,
     /// Of each run its rows so far, in the order of [`NavError::as_array`].
     pub errors: Vec<Vec<[f64; 9]>>,
+}
+
+/// Increments of angle and velocity of a block, eight by eight.
+#[derive(Clone, Copy)]
+#[repr(C, align(64))]
+struct Said([[[[f64; STEPS]; 3]; 2]; AHEAD]);
+
+impl Said {
+    const NOTHING: Said = Said([[[[0.0; STEPS]; 3]; 2]; AHEAD]);
+
+    /// Those of a sample.
+    fn sample(&self, k: usize) -> Increments {
+        let [dtheta, dv] = &self.0[k / STEPS];
+        let at = |axes: &[[f64; STEPS]; 3]| axes.map(|axis| axis[k % STEPS]);
+        Increments { dtheta: Vec3::claim(at(dtheta)), dv: Vec3::claim(at(dv)) }
+    }
 }
 
 enum Navigators {
@@ -63,7 +86,7 @@ impl Group {
             same: course.steady
                 && spec.readout.is_none()
                 && spec.components().all(|c| c.evolution().is_constant()),
-            samples: vec![[Sample::default(); BLOCK]; imus.len()],
+            said: vec![Said::NOTHING; imus.len()],
             errors: vec![Vec::with_capacity(course.rows.len()); imus.len()],
             block: vec![still; BLOCK],
             streams,
@@ -74,29 +97,36 @@ impl Group {
         Ok(group)
     }
 
-    /// What a steady course is seen as, for [`Group::advance`]: at rest a stretch is like any other.
-    pub fn still(course: &Course) -> Vec<Seen> {
-        vec![course.seen(0, 1); BLOCK]
+    /// What the instruments go through in the samples from `first` on, up to `end`, eight by eight; `first` is a multiple of eight.
+    /// A steady course is like any block of it.
+    pub fn seen(course: &Course, first: u64, end: u64) -> Vec<Octet> {
+        let calibration = course.imu.spec.calibration_temperature;
+        let octet = |k: u64| {
+            let truths = std::array::from_fn(|i| course.seen((k + i as u64).min(end - 1), 1));
+            Octet::new(truths, course.dt, calibration)
+        };
+        if course.steady {
+            return vec![octet(0); AHEAD];
+        }
+        let eights = (end - first).div_ceil(STEPS as u64);
+        (0..eights).into_par_iter().map(|k| octet(first + k * STEPS as u64)).collect()
     }
 
-    /// The samples `from..end`, whose truth stands in `stretch`; at rest in its first entries, again and again.
+    /// The samples `from..end`, through what is `seen` from `from` on: a multiple of the length of a block.
     ///
     /// # Errors
     /// A run gives no numbers.
-    pub fn advance(&mut self, course: &Course, from: u64, end: u64, stretch: &[Seen]) -> Result<(), Error> {
+    pub fn advance(&mut self, course: &Course, from: u64, end: u64, seen: &[Octet]) -> Result<(), Error> {
         let mut at = from;
         while at < end {
-            // Where a block begins in the middle of eight samples, it ends with them: instruments then go on by eights.
-            let row = course.rows[self.errors[0].len()];
-            let next = (at / BLOCK as u64 + 1) * BLOCK as u64;
-            let until = next.min(row).min(end);
-            let seen = if course.steady { 0 } else { (at - from) as usize };
-            let count = (until - at) as usize;
-            if !self.same || at == 0 {
-                let count = if self.same { BLOCK } else { count };
-                self.measure(course.dt, &stretch[seen..seen + count]);
+            let within = (at % BLOCK as u64) as usize;
+            if within == 0 && (!self.same || at == 0) {
+                let first = if course.steady { 0 } else { (at - from) as usize / STEPS };
+                self.measure(&seen[first..seen.len().min(first + AHEAD)]);
             }
-            self.navigate(course.dt, count);
+            let row = course.rows[self.errors[0].len()];
+            let until = (at + (BLOCK - within) as u64).min(row).min(end);
+            self.navigate(course.dt, within..within + (until - at) as usize);
             at = until;
             if at == row {
                 self.note(course, row)?;
@@ -106,31 +136,28 @@ impl Group {
     }
 
     /// What the instruments say.
-    fn measure(&mut self, dt: f64, seen: &[Seen]) {
-        for (imu, samples) in self.imus.iter_mut().zip(&mut self.samples) {
-            imu.steps(dt, seen, samples);
+    fn measure(&mut self, seen: &[Octet]) {
+        for (imu, said) in self.imus.iter_mut().zip(&mut self.said) {
+            for (octet, said) in seen.iter().zip(&mut said.0) {
+                imu.octet(octet, said);
+            }
         }
         if let Navigators::Lanes(_) = self.navigators {
-            let last = self.samples.len() - 1;
-            let each: [&[Sample; BLOCK]; LANES] = std::array::from_fn(|lane| &self.samples[lane.min(last)]);
-            for (k, increments) in self.block[..seen.len()].iter_mut().enumerate() {
+            let last = self.said.len() - 1;
+            let each: [&Said; LANES] = std::array::from_fn(|lane| &self.said[lane.min(last)]);
+            for (k, increments) in self.block[..seen.len() * STEPS].iter_mut().enumerate() {
                 *increments = across(&each, k);
             }
         }
     }
 
-    /// Steps with the first `count` samples that were measured last.
-    fn navigate(&mut self, dt: f64, count: usize) {
+    /// Steps with the samples `range` of what was measured last.
+    fn navigate(&mut self, dt: f64, range: Range<usize>) {
         match &mut self.navigators {
-            Navigators::Lanes(lanes) => lanes.steps(&self.block[..count], dt),
+            Navigators::Lanes(lanes) => lanes.steps(&self.block[range], dt),
             Navigators::Alone(navigators) => {
-                for (navigator, samples) in navigators.iter_mut().zip(&self.samples) {
-                    for sample in &samples[..count] {
-                        navigator.step(&Increments {
-                            dtheta: Vec3::claim(sample.dtheta),
-                            dv: Vec3::claim(sample.dv),
-                        });
-                    }
+                for (navigator, said) in navigators.iter_mut().zip(&self.said) {
+                    range.clone().for_each(|k| navigator.step(&said.sample(k)));
                 }
             }
         }
@@ -163,13 +190,13 @@ pub fn finite(errors: [f64; 9], run: Stream, t: f64) -> Result<[f64; 9], Error> 
 
 /// Sample `k` of all lanes. Plain loops: iterators over arrays were four times slower.
 #[inline(always)]
-fn across(samples: &[&[Sample; BLOCK]; LANES], k: usize) -> Increments<Eight> {
+fn across(said: &[&Said; LANES], k: usize) -> Increments<Eight> {
     let (mut dtheta, mut dv) = ([[0.0; LANES]; 3], [[0.0; LANES]; 3]);
     for lane in 0..LANES {
-        let sample = &samples[lane][k];
+        let [angles, velocities] = &said[lane].0[k / STEPS];
         for axis in 0..3 {
-            dtheta[axis][lane] = sample.dtheta[axis];
-            dv[axis][lane] = sample.dv[axis];
+            dtheta[axis][lane] = angles[axis][k % STEPS];
+            dv[axis][lane] = velocities[axis][k % STEPS];
         }
     }
     Increments { dtheta: Vec3::claim(dtheta), dv: Vec3::claim(dv) }

@@ -7,6 +7,7 @@ mod bands;
 mod figures;
 mod gather;
 pub(crate) mod group;
+mod magnitude;
 mod prediction;
 mod replay;
 mod report;

@@ -10,8 +10,28 @@ use crate::{
 };
 
 /// Columns of the summary: each error at the end, SI.
-const SUMMARY: [&str; 10] =
-    ["source", "mean", "sd", "low", "high", "predicted", "q50", "q95", "variance_ratio", "band"];
+const SUMMARY: [&str; 12] = [
+    "source",
+    "mean",
+    "sd",
+    "low",
+    "high",
+    "predicted",
+    "q50",
+    "predicted_q50",
+    "q95",
+    "predicted_q95",
+    "variance_ratio",
+    "band",
+];
+
+/// Shares of the runs that `monte_carlo.csv` has quantiles of.
+fn quantiles() -> impl Iterator<Item = f64> {
+    RunFigure::ALL.into_iter().filter_map(|(_, figure)| match figure {
+        RunFigure::Quantile(p) => Some(p),
+        RunFigure::Deviation | RunFigure::Rms => None,
+    })
+}
 
 /// Each error at the end beside its prediction.
 pub fn summary(statistics: &Statistics, predicted: Option<&[Predicted]>) -> Table {
@@ -22,6 +42,7 @@ pub fn summary(statistics: &Statistics, predicted: Option<&[Predicted]>) -> Tabl
         let sd = statistics.figure(row, k, RunFigure::Deviation);
         let verdict = predicted.and_then(|p| verdict(statistics, row, k, p));
         let quantile = |p| Cell::from(statistics.figure(row, k, RunFigure::Quantile(p)).value);
+        let expected = |share| Cell::from(predicted.map_or(f64::NAN, |p| p.quantile(k, share)));
         table.push(&[
             (*name).into(),
             statistics.mean(row, k).value.into(),
@@ -30,7 +51,9 @@ pub fn summary(statistics: &Statistics, predicted: Option<&[Predicted]>) -> Tabl
             sd.high.into(),
             predicted.map_or(f64::NAN, |p| p.sd(k)).into(),
             quantile(0.5),
+            expected(0.5),
             quantile(0.95),
+            expected(0.95),
             verdict.map_or(f64::NAN, |v| v.ratio).into(),
             verdict.map_or("-", |v| if v.holds() { "inside" } else { "outside" }).into(),
         ]);
@@ -65,7 +88,7 @@ pub fn tables(scene: &Scene, statistics: &Statistics, predicted: Option<&[Predic
                     None => push("predicted", way, &|k| p.mean(k)),
                     Some(RunFigure::Deviation) => push("predicted", way, &|k| p.sd(k)),
                     Some(RunFigure::Rms) => push("predicted", way, &|k| p.rms(k)),
-                    Some(RunFigure::Quantile(_)) => {}
+                    Some(RunFigure::Quantile(share)) => push("predicted", way, &|k| p.quantile(k, share)),
                 }
             }
         }
@@ -73,7 +96,9 @@ pub fn tables(scene: &Scene, statistics: &Statistics, predicted: Option<&[Predic
             let (beyond, runs) = (statistics.beyond(row, k), statistics.runs);
             let [low, high] = share_interval(beyond, runs);
             let share = beyond as f64 / runs as f64;
-            let cells: [Cell; 7] = [
+            let predicted =
+                predicted.map_or(f64::NAN, |rows| rows[row].beyond(threshold.quantity, threshold.limit));
+            let cells: [Cell; 8] = [
                 t.into(),
                 threshold.name.as_str().into(),
                 (beyond as f64).into(),
@@ -81,6 +106,7 @@ pub fn tables(scene: &Scene, statistics: &Statistics, predicted: Option<&[Predic
                 share.into(),
                 low.into(),
                 high.into(),
+                predicted.into(),
             ];
             exceedance.push(&cells);
         }
@@ -117,6 +143,19 @@ pub fn notes(
             }
             notes.push(format!(
                 "Over all rows {outside} of {all} sampled variances are outside their 99 % chi-square band about the predicted covariance; rows of one run hang together"
+            ));
+            let end = statistics.rows() - 1;
+            let (mut all, mut outside) = (0, 0);
+            for k in (0..QUANTITIES).filter(|&k| predicted[end].sd(k) > 0.0) {
+                for share in quantiles() {
+                    let found = statistics.figure(end, k, RunFigure::Quantile(share));
+                    all += 1;
+                    outside +=
+                        usize::from(!(found.low..=found.high).contains(&predicted[end].quantile(k, share)));
+                }
+            }
+            notes.push(format!(
+                "At the end {outside} of {all} predicted quantiles are outside the 99 % confidence interval of those of the runs"
             ));
         }
     }

@@ -2,14 +2,14 @@
 
 use rayon::prelude::*;
 use schuler_frames::{Vec3, with_phi, with_position_error};
-use schuler_imu::{Stream, Truth as Seen, random::Draws};
+use schuler_imu::{Stream, random::Draws};
 use schuler_strapdown::{LANES, Pva};
 
 use super::{group::Group, scene::Scene};
 use crate::{Error, Progress};
 
 /// Samples of a stretch of time, for which the motion is calculated once for all runs.
-const STRETCH: usize = 4096;
+const STRETCH: usize = 2048;
 
 /// Navigation errors of consecutive runs at each row.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,16 +40,12 @@ pub fn runs(scene: &Scene, first: u64, last: u64, progress: &dyn Progress) -> Re
         Group::new(scene, &scene.study.imu.spec, streams, |lane, _| Ok(starts[lane]))
     };
     let mut groups = starts.map(group).collect::<Result<Vec<_>, _>>()?;
-    let mut stretch: Vec<Seen> = if scene.steady { Group::still(scene) } else { Vec::new() };
     let mut from = 0;
     while from < scene.study.samples {
         let end = scene.study.samples.min(from + STRETCH as u64);
-        if !scene.steady {
-            let count = (end - from) as usize;
-            (0..count).into_par_iter().map(|k| scene.seen(from + k as u64, 1)).collect_into_vec(&mut stretch);
-        }
+        let seen = Group::seen(scene, from, end);
         groups.par_iter_mut().try_for_each(|group| {
-            group.advance(scene, from, end, &stretch)?;
+            group.advance(scene, from, end, &seen)?;
             progress.advance(group.errors.len() as u64);
             Ok::<(), Error>(())
         })?;

@@ -357,8 +357,9 @@ pub mod columns {
         "phi_d_rad",
         "horizontal_m",
     ];
-    /// `exceedance.csv`: how many runs are beyond a threshold (`source`), their share, and its 99 % confidence interval.
-    pub const EXCEEDANCE: [&str; 7] = [
+    /// `exceedance.csv`: how many runs are beyond a threshold (`source`), their share, its 99 % confidence interval, and what
+    /// covariance predicts of it.
+    pub const EXCEEDANCE: [&str; 8] = [
         "t_s",
         "source",
         "beyond_count",
@@ -366,6 +367,7 @@ pub mod columns {
         "beyond_ratio",
         "beyond_low_ratio",
         "beyond_high_ratio",
+        "beyond_predicted_ratio",
     ];
     /// `nees.csv` of a Monte Carlo: normalized error squared against the predicted covariance, a degree of freedom, with
     /// its 99 % band, and how many degrees of freedom a run has.

@@ -159,7 +159,7 @@ fn aided_runs_meet_the_dual_covariance() {
     study.runs = 200;
     study.initial_sigmas = initial(1.0);
     let scene = Scene::new(&study, Some(20.0));
-    let track = monte_carlo::Track::new(&scene);
+    let track = monte_carlo::Track::new(&scene).unwrap();
     let list = sources(&study);
     let all = linear(&scene, &list).unwrap();
     let theory = said(&all, TOTAL, Way::Covariance);

@@ -137,7 +137,7 @@ fn runs_that_align_meet_the_covariance() {
     (study.imu.rate, study.alignment, study.samples) = (0.5, 300, 900);
     study.runs = 300;
     let scene = Scene::new(&study, Some(1800.0));
-    let track = monte_carlo::Track::new(&scene);
+    let track = monte_carlo::Track::new(&scene).unwrap();
     let list = sources(&study);
     let all = linear(&scene, &list).unwrap();
     let found = monte_carlo::covariance(&scene, &track, &list, 11).unwrap();

@@ -235,7 +235,7 @@ fn columns_meet_half_differences() {
     }
     let study = budget(45.0, 10.0, 7200.0, spec, initial(0.1));
     let scene = Scene::new(&study, Some(600.0));
-    let track = monte_carlo::Track::new(&scene);
+    let track = monte_carlo::Track::new(&scene).unwrap();
     let all = sources(&study);
     let responses = super::columns::responses(&scene, &all);
     let mut compared = 0;
@@ -296,7 +296,7 @@ fn runs_meet_the_covariance() {
     let mut study = budget(45.0, 1.0, 3600.0, spec, initial(1.0));
     study.runs = 400;
     let scene = Scene::new(&study, Some(1800.0));
-    let track = monte_carlo::Track::new(&scene);
+    let track = monte_carlo::Track::new(&scene).unwrap();
     let list = sources(&study);
     let all = linear(&scene, &list).unwrap();
     let sigma = (2.0 / study.runs as f64).sqrt();

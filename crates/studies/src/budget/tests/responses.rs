@@ -101,7 +101,7 @@ fn airliner(rate: f64) -> Budget {
 /// The largest of all sources' deviations of columns from half-differences.
 fn worst(study: &Budget, size: f64, floor: [f64; 3]) -> ([f64; 3], usize) {
     let scene = Scene::new(study, Some(10.0));
-    let track = monte_carlo::Track::new(&scene);
+    let track = monte_carlo::Track::new(&scene).unwrap();
     let all = sources(study);
     let found = match &study.filter {
         Some(filter) => super::super::aided::linear(&scene, filter, &all).unwrap().columns,
