@@ -10,8 +10,10 @@ mod monte_carlo;
 mod passage;
 mod radius;
 mod report;
+mod rounding;
 mod scene;
 mod source;
+mod stepper;
 #[cfg(test)]
 mod tests;
 
