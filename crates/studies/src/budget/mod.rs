@@ -12,8 +12,10 @@ mod passage;
 mod radius;
 mod report;
 mod requirement;
+mod rounding;
 mod scene;
 mod source;
+mod stepper;
 #[cfg(test)]
 mod tests;
 

@@ -24,6 +24,13 @@ pub struct Sample {
     turned: [Matrix3<f64>; 2],
 }
 
+impl Sample {
+    /// The mean of C_b^t over it.
+    pub fn mean(&self) -> Matrix3<f64> {
+        (self.turned[0] + self.turned[1]) * 0.5
+    }
+}
+
 /// The samples from number `begin` to `end`.
 pub fn samples(scene: &Scene, begin: u64, end: u64) -> Vec<Sample> {
     (begin..end)
@@ -40,7 +47,8 @@ pub fn samples(scene: &Scene, begin: u64, end: u64) -> Vec<Sample> {
         .collect()
 }
 
-fn attitude(pva: &Pva) -> Matrix3<f64> {
+/// C_b^t.
+pub fn attitude(pva: &Pva) -> Matrix3<f64> {
     pva.c_tb.as_dcm().as_nalgebra().into_owned()
 }
 

@@ -1,11 +1,12 @@
 //! Tables and remarks of a budget.
 
+use schuler_imu::{Component, Input, Instrument, Truth};
 use schuler_strapdown::{Vertical, filter::chi_square};
 
 use super::agreement::Agreement;
 use super::radius::{horizontal, radius, space, spherical};
 use super::scene::Scene;
-use super::source::Nine;
+use super::source::{self, Nine};
 use super::{BELIEVED, Contribution, TOTAL, Way};
 use crate::record::{Cell, Table, columns};
 
@@ -90,6 +91,7 @@ pub fn notes(scene: &Scene, contributions: &[Contribution], agreement: Option<&A
             scene.time(scene.study.alignment)
         ));
     }
+    notes.extend(remarks(scene));
     let believed = contributions.iter().find_map(|c| c.of(Way::Sigma)).and_then(|p| p.last());
     if let (Some(believed), Some(truth)) = (believed, total(contributions).last()) {
         let size = |p: &Nine| horizontal(p).trace().max(0.0).sqrt();
@@ -104,6 +106,55 @@ pub fn notes(scene: &Scene, contributions: &[Contribution], agreement: Option<&A
     }
     notes.extend(agreement.map(Agreement::note));
     notes
+}
+
+/// What a filter, or the covariance through it, does not know of.
+fn remarks(scene: &Scene) -> Vec<String> {
+    let Some(filter) = &scene.study.filter else { return Vec::new() };
+    let mut remarks = Vec::new();
+    let mut blind: Vec<String> =
+        filter.spec.components().filter(blind).map(|c| c.source().name().to_string()).collect();
+    blind.dedup();
+    if !blind.is_empty() {
+        remarks.push(format!(
+            "The filter sees increments, neither temperature nor vibration nor angular acceleration: what it knows of {} does nothing",
+            blind.join(", ")
+        ));
+    }
+    let mut rounded: Vec<String> = filter
+        .spec
+        .components()
+        .filter(|c| c.evolution().kind.name() == source::ROUNDING)
+        .map(|c| c.source().name().to_string())
+        .collect();
+    rounded.dedup();
+    if !rounded.is_empty() {
+        remarks.push(format!(
+            "The filter has no states for rounding: it takes {} to be nothing",
+            rounded.join(", ")
+        ));
+    }
+    let antenna = filter.aiding.velocity.as_ref().is_some_and(|aid| aid.lever_arm != [0.0; 3]);
+    let white =
+        |c: &Component| c.instrument() == Instrument::Gyro && c.evolution().linear_model().white > 0.0;
+    if antenna && scene.study.imu.spec.components().any(|c| white(&c)) {
+        remarks.push(
+            "White noise of the gyros in the very rate by which the velocity is carried to the antenna is left out by covariance; runs have it"
+                .into(),
+        );
+    }
+    remarks
+}
+
+/// Whether a term asks for more than increments.
+fn blind(component: &Component) -> bool {
+    let seen = Truth::rates([0.1, -0.2, 0.3], [1.0, -2.0, -9.0]);
+    let more = seen.with_temperature(250.0, 1.0).with_omega_dot([1.0, 2.0, 3.0]).with_vibration([1.0; 3]);
+    let column = |seen: &Truth| {
+        let input = Input::new(component.instrument(), seen, 1.0, Truth::TEMPERATURE);
+        component.term().regressor(&input).columns()[component.coefficient()]
+    };
+    column(&seen) != column(&more)
 }
 
 /// 99 % band of the mean square of `runs` normals of variance one. Beyond a thousand by the cube-root approximation of

@@ -41,8 +41,12 @@ impl<'a> Scene<'a> {
         let first = self.rows.get(1).copied().unwrap_or(1);
         let doubled = (0..u64::BITS).map(|k| 1 << k).take_while(|&k| k < first);
         let rows = [0].into_iter().chain(doubled).collect();
-        let whole = Scene::new(self.study, Some(self.time(self.study.samples)));
-        Scene { study: self.study, course: whole.course.with_rows(rows) }
+        Scene::new(self.study, Some(self.time(self.study.samples))).with_rows(rows)
+    }
+
+    /// The same with other rows, numbers of samples from 0 on.
+    pub fn with_rows(self, rows: Vec<u64>) -> Scene<'a> {
+        Scene { study: self.study, course: self.course.with_rows(rows) }
     }
 
     /// What the sensors go through while the body stands as at the start, over `dt` (s).

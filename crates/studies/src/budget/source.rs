@@ -12,6 +12,9 @@ use crate::scenario::{Aid, Aiding, Budget, Initial, MeasuredKind, Vertical};
 /// States of one component beside the nine navigation errors: no process has more.
 pub const ROOM: usize = 9 + schuler_imu::process::MAX_STATES;
 
+/// The process that is none in continuous time.
+pub const ROUNDING: &str = "quantization";
+
 /// Covariance of the nine navigation errors in the order of [`schuler_strapdown::NavError::as_array`].
 pub type Nine = SMatrix<f64, 9, 9>;
 /// Covariance of navigation errors and the states of one component.
@@ -156,6 +159,14 @@ impl Source {
     pub fn model(&self, all: &Spec) -> Joined {
         Model::new(Form::Phi, NavStates::ALL, &self.spec(all))
             .expect("invariant: no component has more states than there is room for")
+    }
+
+    /// The coefficient whose integral is rounded, and the standard deviation of that, if it is such a source.
+    pub fn rounding(&self) -> Option<(Component, f64)> {
+        let Kind::Sensor(component) = &self.kind else { return None };
+        let evolution = component.evolution();
+        let q = evolution.gain.abs() * evolution.arguments.values[0];
+        (evolution.kind.name() == ROUNDING).then_some((**component, q))
     }
 
     /// Second moment of all states at t = 0, after the alignment where there is one. A fixed value counts as a standard

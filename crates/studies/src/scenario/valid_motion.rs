@@ -114,6 +114,15 @@ impl Motion {
         }))
     }
 
+    /// Whether the instrument is taken off and mounted anew on the way, so that its attitude jumps.
+    pub fn is_mounted_anew(&self) -> bool {
+        match self {
+            Motion::RateTable(_) => true,
+            Motion::Shaken(motion, _) => motion.is_mounted_anew(),
+            _ => false,
+        }
+    }
+
     /// The file it is recorded in, if it is.
     pub fn file(&self) -> Option<&TrajectoryFile> {
         match self {

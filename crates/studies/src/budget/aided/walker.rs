@@ -1,45 +1,15 @@
 //! Truth and filter together, for one source.
 
-use nalgebra::{DMatrix, DVector, SMatrix, SVector};
-use schuler_imu::Instrument;
+use nalgebra::{DMatrix, DVector, SMatrix};
 use schuler_strapdown::Pva;
-use schuler_strapdown::filter::{Accumulator, Form, Propagation};
 
 use super::super::passage::Sample;
 use super::super::scene::Scene;
-use super::super::source::{Joined, Kind, Nine, Noise, ROOM, Source};
+use super::super::source::{Kind, Nine, Noise, Source};
+use super::super::stepper::Stepper;
 use super::aid;
 use super::nominal::{Gain, Passed};
 use crate::scenario::BudgetFilter;
-
-/// Transition and noise of navigation errors and source states over intervals: exact at rest, gathered from samples along a
-/// motion.
-struct Stepper {
-    model: Joined,
-    accumulator: Accumulator<ROOM>,
-    /// At rest: number of samples and what they do.
-    known: Vec<(u64, Propagation<ROOM>)>,
-}
-
-impl Stepper {
-    fn over(&mut self, scene: &Scene, samples: &[Sample]) -> Propagation<ROOM> {
-        if !scene.steady {
-            for Sample { pva, seen, increments, .. } in samples {
-                self.accumulator.step_seen(&self.model, pva, seen, increments, scene.dt);
-            }
-            return self.accumulator.close(&self.model);
-        }
-        let count = samples.len() as u64;
-        if let Some((_, step)) = self.known.iter().find(|(c, _)| *c == count) {
-            return step.clone();
-        }
-        let (pva, f_b) = scene.moment(0.0);
-        let system = Form::Phi.system(&scene.dynamics(), &pva, f_b);
-        let step = Propagation::exact(&self.model, &system, &scene.seen(0, count), scene.time(count));
-        self.known.push((count, step.clone()));
-        step
-    }
-}
 
 /// What an interval does to r, s and b.
 struct Move<'a> {
@@ -85,7 +55,7 @@ impl Move<'_> {
 pub struct Walker<'a> {
     scene: &'a Scene<'a>,
     settings: &'a BudgetFilter,
-    stepper: Stepper,
+    stepper: Stepper<'a>,
     /// Number of true states, nine and those of the source, and of all.
     truth: usize,
     all: usize,
@@ -110,19 +80,18 @@ impl<'a> Walker<'a> {
         source: &Source,
         estimated: usize,
     ) -> Walker<'a> {
-        let model = source.model(&scene.study.imu.spec);
-        let (truth, start) = (model.len(), source.start(scene, &model));
+        let stepper = Stepper::new(scene, source);
+        let (truth, start) = (stepper.len(), stepper.start(source));
         let all = truth + estimated;
         let factor = factor(start.view((0, 0), (truth, truth)).into_owned().resize(all, all, 0.0));
         let noise = match source.kind {
             Kind::Noise(noise) => Some(noise),
             _ => None,
         };
-        let accumulator = Accumulator::new(&model, scene.dynamics(), &scene.moment(0.0).0);
         Walker {
             scene,
             settings,
-            stepper: Stepper { model, accumulator, known: Vec::new() },
+            stepper,
             truth,
             all,
             noise,
@@ -137,7 +106,7 @@ impl<'a> Walker<'a> {
     }
 
     fn step<'p>(&mut self, passed: &'p Passed, samples: &[Sample]) -> Move<'p> {
-        let step = self.stepper.over(self.scene, samples);
+        let step = self.stepper.over(passed.begin, passed.end, samples);
         let (phi, q, truth) = (step.phi(), step.q(), self.truth);
         Move {
             passed,
@@ -149,7 +118,7 @@ impl<'a> Walker<'a> {
 
     /// On over intervals, the first of which begins with the navigator at `pva`.
     pub fn on<'s>(&mut self, pva: &Pva, passed: &[Passed], samples: impl Fn(&Passed) -> &'s [Sample]) {
-        self.stepper.accumulator.begin(&self.stepper.model, pva);
+        self.stepper.begin(pva);
         for passed in passed {
             let step = self.step(passed, samples(passed));
             step.carry(&mut self.factor);
@@ -181,10 +150,7 @@ impl<'a> Walker<'a> {
         k.rows_mut(0, 9).copy_from(&gain.k_n);
         if gain.h_gyro != [0.0; 3] {
             for state in 9..truth {
-                let mut unit = SVector::<f64, ROOM>::zeros();
-                unit[state] = 1.0;
-                let model = &self.stepper.model;
-                let error = model.sensor_error(Instrument::Gyro, &unit, &passed.seen, self.scene.dt);
+                let error = self.stepper.gyro(state, &passed.seen);
                 h[state] = gain.h_gyro.iter().zip(error).map(|(h, e)| h * e).sum();
             }
         }
@@ -205,13 +171,11 @@ impl<'a> Walker<'a> {
             return;
         }
         self.driven = true;
-        let c = &self.since * &h;
-        let nu = h.dot(&c) + r;
-        for j in 0..self.all {
-            for i in 0..self.all {
-                self.since[(i, j)] += k[i] * k[j] * nu - k[i] * c[j] - c[i] * k[j];
-            }
-        }
+        // One side after the other: the second takes rounding of the first down as well.
+        let seen = h.transpose() * &self.since;
+        self.since -= &k * seen;
+        let seen = &self.since * &h;
+        self.since += (&k * r - seen) * k.transpose();
     }
 
     /// Back over intervals, the first of which begins with the navigator at `pva`: of a measurement, with the row lambda of
@@ -221,7 +185,7 @@ impl<'a> Walker<'a> {
     /// var := var + (lambda k)² r,   lambda := lambda (I - k h')
     /// ```
     pub fn back<'s>(&mut self, pva: &Pva, passed: &[Passed], samples: impl Fn(&Passed) -> &'s [Sample]) {
-        self.stepper.accumulator.begin(&self.stepper.model, pva);
+        self.stepper.begin(pva);
         let steps: Vec<Move> = passed.iter().map(|passed| self.step(passed, samples(passed))).collect();
         for step in steps.iter().rev() {
             for gain in step.passed.gains.iter().rev() {

@@ -2,6 +2,7 @@
 
 mod aided;
 mod alignment;
+mod any_list;
 mod radius;
 mod responses;
 

@@ -11,14 +11,19 @@ use crate::trajectory::{Segment, Sharpness, Turn};
 
 /// What a unit of a source does, by full runs: half the difference D of those with plus and minus a size h of it. Of the
 /// third order D(h) has h², which (4 D(h) - D(2h)) / 3 has not, so that h may be large and rounding small.
-fn half_difference(scene: &Scene, track: &monte_carlo::Track, source: &Source, size: f64) -> Vec<[f64; 9]> {
+pub fn half_difference(
+    scene: &Scene,
+    track: &monte_carlo::Track,
+    source: &Source,
+    size: f64,
+) -> Vec<[f64; 9]> {
     let [fine, coarse] = [size, 2.0 * size].map(|size| of_size(scene, track, source, size));
     let both = fine.iter().zip(&coarse);
     both.map(|(f, c)| std::array::from_fn(|k| (4.0 * f[k] - c[k]) / 3.0)).collect()
 }
 
 fn of_size(scene: &Scene, track: &monte_carlo::Track, source: &Source, size: f64) -> Vec<[f64; 9]> {
-    let value = match (&source.kind, source.size()) {
+    let mut value = match (&source.kind, source.size()) {
         (Kind::Sensor(c), Some(s)) => {
             let mut values = vec![0.0; c.term().len()];
             values[c.coefficient()] = s.value * size;
@@ -28,6 +33,7 @@ fn of_size(scene: &Scene, track: &monte_carlo::Track, source: &Source, size: f64
         }
         _ => Spec::new(),
     };
+    value.calibration_temperature = scene.study.imu.spec.calibration_temperature;
     let stream = Stream { seed: 1, run: 0 };
     let [plus, minus] = [1.0, -1.0].map(|sign| {
         let initial = source.initial().map(|x| sign * size * x);
@@ -40,7 +46,7 @@ fn of_size(scene: &Scene, track: &monte_carlo::Track, source: &Source, size: f64
 
 /// The largest difference of two responses in position, velocity and attitude, in units of the largest of `b` there; of what
 /// is below `floor` (m, m/s, rad) there is rounding and nothing else.
-fn off(a: &[[f64; 9]], b: &[[f64; 9]], floor: [f64; 3]) -> [f64; 3] {
+pub fn off(a: &[[f64; 9]], b: &[[f64; 9]], floor: [f64; 3]) -> [f64; 3] {
     assert_eq!(a.len(), b.len());
     [0, 1, 2].map(|group| {
         let errors = 3 * group..3 * group + 3;

@@ -45,6 +45,15 @@ impl Document {
                 .example("motion: static"));
         }
         let valid_motion = self.motion(motion, Some(&start), Some(duration))?;
+        if valid_motion.is_mounted_anew() {
+            return Err(self
+                .diagnostic(
+                    Spot::Node(motion.node),
+                    "a rate table mounts the instrument anew between its axes: no navigator follows that jump",
+                )
+                .expected("a motion without jumps of the attitude")
+                .example("motion: { sway: { roll: { amplitude: 5 deg, period: 10 s } } }"));
+        }
         if valid_motion.file().is_some() {
             return Err(self
                 .diagnostic(Spot::Node(motion.node), "the study `budget` reads no trajectory")
@@ -150,13 +159,12 @@ impl Document {
                 .found(runs.value.to_string())
                 .example("runs: 200"));
         }
-        let fixed = imu
-            .spec
-            .components()
-            .find(|c| c.evolution().deterministic().is_some_and(|p| p.value != 0.0 || p.rate != 0.0));
+        let fixed = imu.spec.components().find(|c| c.evolution().linear_model().x0.iter().any(|x| *x != 0.0));
         match fixed {
             Some(component) => Err(fault("a fixed value does not scatter from run to run")
-                .expected("sources with a standard deviation: `sigma` instead of `value` or `rate`")
+                .expected(
+                    "sources with a standard deviation: `sigma` instead of `value` or `rate`, no `phase`",
+                )
                 .found(component.to_string())),
             None => Ok(runs.value),
         }
