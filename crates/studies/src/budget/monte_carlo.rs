@@ -29,7 +29,7 @@ impl Track {
     /// A run in which nothing is wrong gives no numbers.
     pub fn new(scene: &Scene) -> Result<Track, Error> {
         let measured = scene.study.filter.as_ref().map(|filter| aided::Track::new(scene, filter));
-        let mut track = Track { seen: Group::seen(scene, 0, scene.study.samples), own: Vec::new(), measured };
+        let mut track = Track { seen: Group::seen(scene, 0, scene.end()), own: Vec::new(), measured };
         let stream = Stream { seed: 0, run: 0 };
         let right = Run { track: &track, sources: &[], spec: &Spec::new(), initial: [0.0; 9], stream };
         track.own = together(scene, &[right])?.concat();
@@ -105,7 +105,7 @@ pub fn together(scene: &Scene, runs: &[Run]) -> Result<Vec<Vec<[f64; 9]>>, Error
     let keeps = spec.components().all(|c| c.evolution().is_constant());
     let streams = runs.iter().map(|one| one.stream).collect();
     let mut group = Group::new(scene, spec, streams, |lane, imu| runs[lane].begin(scene, imu, keeps))?;
-    group.advance(scene, 0, scene.study.samples, &track.seen)?;
+    group.advance(scene, 0, scene.end(), &track.seen)?;
     Ok(group.errors)
 }
 

@@ -44,9 +44,14 @@ impl<'a> Scene<'a> {
         Scene::new(self.study, Some(self.time(self.study.samples))).with_rows(rows)
     }
 
-    /// The same with other rows, numbers of samples from 0 on.
+    /// The same with other rows: numbers of samples, the first 0.
     pub fn with_rows(self, rows: Vec<u64>) -> Scene<'a> {
         Scene { study: self.study, course: self.course.with_rows(rows) }
+    }
+
+    /// Number of the sample at the last row.
+    pub fn end(&self) -> u64 {
+        self.rows.last().copied().unwrap_or(0)
     }
 
     /// What the sensors go through while the body stands as at the start, over `dt` (s).
