@@ -219,13 +219,84 @@ fn parts_that_do_not_belong_together_are_refused() {
     refused(&place, &["plan", "--slurm", "1001", "a.yaml"], &["not so many parts"]);
 }
 
+/// A file system of two megabytes, in a mount namespace of its own. It holds earlier results, and a file that leaves little room:
+/// too little for the first runs, then for all runs, then for the results of a few runs. Copies go to `seen`, which is outside.
+const SMALL_DISK: &str = r#"
+set -eu
+mkdir disk seen
+mount -t tmpfs -o size=2m none disk
+schuler run a.yaml --quiet --out disk/out
+cp -r disk/out seen/earlier
+attempt() { # name, kilobytes, arguments
+  name=$1 free=$2; shift 2
+  room=$(df -k --output=avail disk | tail -n 1)
+  head -c $(( (room - free) * 1024 )) /dev/zero > disk/filler
+  code=0; schuler run a.yaml --quiet --out disk/out "$@" 2> "seen/$name.error" || code=$?
+  echo $code > "seen/$name.code"
+  cp -r disk/out "seen/$name"
+  rm disk/filler
+}
+attempt first 16 --seed 2
+attempt some 200 --seed 2
+ls disk/out.partial > seen/kept
+attempt resumed 1300 --seed 2
+test ! -e disk/out.partial
+attempt results 40 --seed 3 --set monte_carlo.runs=2
+schuler run a.yaml --quiet --out disk/out --seed 3 --set monte_carlo.runs=2
+cp -r disk/out seen/few
+"#;
+
+/// A disk that is full says so, leaves what was there, and once there is room the study goes on to the same bytes. Where nobody may
+/// mount anything, that is said.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_loses_nothing() {
+    let probe = |namespace: &[&str]| {
+        let place = place("probe");
+        fs::create_dir(place.0.join("disk")).expect("a folder");
+        let mut command = Command::new(namespace[0]);
+        command.current_dir(&place.0).args(&namespace[1..]);
+        command.args(["mount", "-t", "tmpfs", "-o", "size=64k", "none", "disk"]);
+        command.output().is_ok_and(|output| output.status.success())
+    };
+    let namespaces: [&[&str]; 2] =
+        [&["unshare", "--user", "--map-root-user", "--mount"], &["unshare", "--mount"]];
+    let Some(namespace) = namespaces.into_iter().find(|namespace| probe(namespace)) else {
+        eprintln!("skipped: neither a user namespace nor the rights of root to mount a small file system");
+        return;
+    };
+    let place = place("disk");
+    succeeds(&place, &["run", "a.yaml", "--seed", "2", "--out", "whole"]);
+    succeeds(&place, &["run", "a.yaml", "--seed", "3", "--set", "monte_carlo.runs=2", "--out", "whole few"]);
+    fs::write(place.0.join("disk.sh"), SMALL_DISK).expect("a script");
+    let output = bash(&place, &format!("{} bash disk.sh", namespace.join(" ")), &[]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let seen = |name: &str| fs::read_to_string(place.0.join("seen").join(name)).expect("a file");
+    for (name, code) in [("first", "2"), ("some", "2"), ("resumed", "0"), ("results", "2")] {
+        assert_eq!(seen(&format!("{name}.code")).trim(), code, "{name}: {}", seen(&format!("{name}.error")));
+    }
+    for (name, file) in [("first", "disk/out.partial/"), ("some", "disk/out.partial/"), ("results", "disk/")]
+    {
+        let error = seen(&format!("{name}.error"));
+        let told = error.contains(file) && error.contains("No space left on device");
+        assert!(told && error.contains("cannot write"), "{name}: {error}");
+        assert!(name == "results" || error.contains("make room and start again"), "{name}: {error}");
+    }
+    assert!(seen("kept").contains("runs-0000000000-"), "{}", seen("kept"));
+    same(&place, "seen/earlier", "seen/first");
+    same(&place, "seen/earlier", "seen/some");
+    same(&place, "whole", "seen/resumed");
+    same(&place, "seen/resumed", "seen/results");
+    same(&place, "whole few", "seen/few");
+}
+
 /// Unfinished runs of something else, and places that cannot be written.
 #[test]
-fn foreign_state_and_full_disks_are_told() {
+fn foreign_state_and_files_too_large_are_told() {
     let place = place("full");
     succeeds(&place, &["run", "a.yaml", "--out", "out"]);
     let before = files(&place.0.join("out"));
-    // A limit on the size of files stands for a full disk: the first file of finished runs does not fit.
+    // A limit on the size of files: the first file of finished runs does not fit.
     let program = assert_cmd::cargo::cargo_bin!("schuler");
     let limited =
         format!("trap '' XFSZ; ulimit -f 8; exec '{}' run a.yaml --seed 2 --out out", program.display());
@@ -233,6 +304,7 @@ fn foreign_state_and_full_disks_are_told() {
     let error = text(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{error}");
     assert!(error.contains("cannot write out.partial/") && error.contains("File too large"), "{error}");
+    assert!(error.contains("make room and start again"), "{error}");
     assert!(before == files(&place.0.join("out")));
     // With room again it goes on; with another seed it is told whose runs are in the way.
     refused(

@@ -156,7 +156,7 @@ impl State {
         if result.is_err() {
             let _ = fs::remove_file(&part);
         }
-        result
+        result.map_err(told)
     }
 
     fn path(&self, range: &Range<u64>) -> PathBuf {
@@ -180,6 +180,21 @@ fn whole(path: &Path, write: impl FnOnce(&Path) -> io::Result<()>) -> Result<(),
         .map_err(|source| Error::Write { path: path.into(), source })
         .and_then(|()| settle(&part, path))
         .inspect_err(|_| drop(fs::remove_file(&part)))
+        .map_err(told)
+}
+
+/// Where there is no room, also what can be done.
+fn told(error: Error) -> Error {
+    use io::ErrorKind::{FileTooLarge, QuotaExceeded, StorageFull};
+    match error {
+        Error::Write { path, source }
+            if matches!(source.kind(), StorageFull | QuotaExceeded | FileTooLarge) =>
+        {
+            let text = format!("{source}; make room and start again: it goes on with the runs that are kept");
+            Error::Write { path, source: io::Error::new(source.kind(), text) }
+        }
+        other => other,
+    }
 }
 
 /// Gives a file its name, and waits until the folder knows it.
