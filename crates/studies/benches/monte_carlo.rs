@@ -82,7 +82,7 @@ fn runs_apart(bencher: Bencher) {
 /// Along a flight, whose truth is calculated once for all runs and whose prediction sample by sample.
 #[divan::bench(args = [1, 2], sample_count = 10)]
 fn runs_in_flight(bencher: Bencher, threads: usize) {
-    let motion = "{ segments: [accelerate: { to: 80 m/s, duration: 20 s }, turn: { angle: 90 deg, rate: 3 deg/s, ramp: 2 s }, straight: { duration: 100 s }] }";
+    let motion = "{ segments: [accelerate: { to: 80 m/s, duration: 20 s }, turn: { angle: 90 deg, rate: 3 deg/s, ramp: 2 s }, straight: { duration: 160 s }] }";
     whole(bencher, motion, threads);
 }
 

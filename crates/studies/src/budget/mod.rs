@@ -20,6 +20,7 @@ mod stepper;
 mod tests;
 
 pub use columns::Columns;
+pub(crate) use radius::radius;
 
 use crate::{Context, Diagnostic, Error, Scenario, record::Record, scenario::Budget};
 use agreement::Agreement;

@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 use super::prediction::Predicted;
+use crate::budget::radius;
 
 /// Directions of the quadrature.
 const DIRECTIONS: usize = 256;
@@ -30,6 +31,9 @@ impl Predicted {
         let (mean, sd) = (self.mean(k).abs(), self.sd(k));
         if sd == 0.0 {
             return mean;
+        }
+        if k >= 9 && mean == 0.0 {
+            return radius(&self.p.fixed_view::<2, 2>(0, 0).into_owned(), p);
         }
         // The rule of Illinois: the secant, an end that stays counting half.
         let off = |r: f64| 1.0 - p - self.beyond(k, r);

@@ -1,5 +1,8 @@
 //! Tables and remarks of a Monte Carlo.
 
+use rayon::prelude::*;
+use schuler_imu::Component;
+
 use super::bands::share_interval;
 use super::prediction::Predicted;
 use super::scene::Scene;
@@ -66,6 +69,11 @@ pub fn tables(scene: &Scene, statistics: &Statistics, predicted: Option<&[Predic
     let mut figures = Table::new("monte_carlo", &columns::MONTE_CARLO, &["source", "way"]);
     let mut exceedance = Table::new("exceedance", &columns::EXCEEDANCE, &["source"]);
     let mut nees = Table::new("nees", &columns::RUNS_NEES, &[]);
+    // They take longer than all else here.
+    let of_row = |p: &Predicted| -> Vec<[f64; QUANTITIES]> {
+        quantiles().map(|share| std::array::from_fn(|k| p.quantile(k, share))).collect()
+    };
+    let expected: Option<Vec<_>> = predicted.map(|rows| rows.par_iter().map(of_row).collect());
     for (row, &sample) in scene.rows.iter().enumerate() {
         let t = scene.time(sample);
         let mut push = |source: &str, way: &str, value: &dyn Fn(usize) -> f64| {
@@ -88,7 +96,11 @@ pub fn tables(scene: &Scene, statistics: &Statistics, predicted: Option<&[Predic
                     None => push("predicted", way, &|k| p.mean(k)),
                     Some(RunFigure::Deviation) => push("predicted", way, &|k| p.sd(k)),
                     Some(RunFigure::Rms) => push("predicted", way, &|k| p.rms(k)),
-                    Some(RunFigure::Quantile(share)) => push("predicted", way, &|k| p.quantile(k, share)),
+                    Some(RunFigure::Quantile(share)) => {
+                        let place = quantiles().position(|known| known == share);
+                        let of = place.and_then(|place| Some(&expected.as_ref()?[row][place]));
+                        push("predicted", way, &|k| of.map_or(f64::NAN, |of| of[k]));
+                    }
                 }
             }
         }
@@ -171,6 +183,10 @@ pub fn notes(
     }
     if scene.study.imu.spec.readout.is_some() && predicted.is_ok() {
         notes.push("The prediction knows nothing of the readout".into());
+    }
+    let rounds = |c: &Component| c.evolution().kind.name() == "quantization";
+    if predicted.is_ok() && scene.study.imu.spec.components().any(|c| rounds(&c)) {
+        notes.push("The prediction knows nothing of rounding by `quantization`; `study: budget` does".into());
     }
     notes
 }

@@ -8,8 +8,9 @@ use schuler_strapdown::{LANES, Pva};
 use super::{group::Group, scene::Scene};
 use crate::{Error, Progress};
 
-/// Samples of a stretch of time, for which the motion is calculated once for all runs.
-const STRETCH: usize = 2048;
+/// Samples of a stretch of time, for which the motion is calculated once for all runs: at its end they wait for each other, which
+/// costs less the longer it is, and each takes 300 bytes.
+const STRETCH: usize = 16_384;
 
 /// Navigation errors of consecutive runs at each row.
 #[derive(Clone, Debug, PartialEq)]

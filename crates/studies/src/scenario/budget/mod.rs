@@ -14,7 +14,6 @@ use super::{
     quantity::Range,
     valid::{Imu, Mechanization, Vertical},
     written::Scenario,
-    written_motion,
 };
 use crate::{Diagnostic, trajectory::Trajectory};
 use valid::{Budget, Required, Requirement};
@@ -38,27 +37,7 @@ impl Document {
         let mechanization = self.mechanization(w, "budget")?;
         self.second_order_at_most(w, &mechanization)?;
         let motion = self.required(&w.motion, "motion", "budget", "motion: static")?;
-        if matches!(motion.value, written_motion::Motion::ZeroTruth) {
-            return Err(self
-                .diagnostic(Spot::Node(motion.node), "zero truth is no place on the Earth to navigate from")
-                .expected("a motion")
-                .example("motion: static"));
-        }
-        let valid_motion = self.motion(motion, Some(&start), Some(duration))?;
-        if valid_motion.is_mounted_anew() {
-            return Err(self
-                .diagnostic(
-                    Spot::Node(motion.node),
-                    "a rate table mounts the instrument anew between its axes: no navigator follows that jump",
-                )
-                .expected("a motion without jumps of the attitude")
-                .example("motion: { sway: { roll: { amplitude: 5 deg, period: 10 s } } }"));
-        }
-        if valid_motion.file().is_some() {
-            return Err(self
-                .diagnostic(Spot::Node(motion.node), "the study `budget` reads no trajectory")
-                .help("choose another motion"));
-        }
+        let valid_motion = self.flown(motion, &start, duration, "budget")?;
         let trajectory = valid_motion
             .trajectory(&start, mechanization.gravity, samples, 1.0 / imu.rate)
             .map_err(|fault| self.impossible(motion, &fault))?;

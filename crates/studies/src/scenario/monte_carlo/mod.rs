@@ -32,7 +32,7 @@ impl Document {
         let duration = samples as f64 / imu.rate;
         let mechanization = self.mechanization(w, STUDY)?;
         let written = self.required(&w.motion, "motion", STUDY, "motion: static")?;
-        let motion = self.flown(written, &start, duration)?;
+        let motion = self.flown(written, &start, duration, STUDY)?;
         let trajectory = motion
             .trajectory(&start, mechanization.gravity, samples, 1.0 / imu.rate)
             .map_err(|fault| self.impossible(written, &fault))?;
@@ -102,12 +102,13 @@ impl Document {
         })
     }
 
-    /// A motion to navigate along that needs no file.
-    fn flown(
+    /// A motion that `study` navigates along: on the Earth, without jumps and without a file.
+    pub(super) fn flown(
         &self,
         motion: &At<written_motion::Motion>,
         start: &super::valid::Start,
         duration: f64,
+        study: &str,
     ) -> Result<valid_motion::Motion, Diagnostic> {
         if matches!(motion.value, written_motion::Motion::ZeroTruth) {
             return Err(self
@@ -116,9 +117,18 @@ impl Document {
                 .example("motion: static"));
         }
         let valid = self.motion(motion, Some(start), Some(duration))?;
+        if valid.is_mounted_anew() {
+            return Err(self
+                .diagnostic(
+                    Spot::Node(motion.node),
+                    "a rate table mounts the instrument anew between its axes: no navigator follows that jump",
+                )
+                .expected("a motion without jumps of the attitude")
+                .example("motion: { sway: { roll: { amplitude: 5 deg, period: 10 s } } }"));
+        }
         if valid.file().is_some() {
             return Err(self
-                .diagnostic(Spot::Node(motion.node), "the study `monte_carlo` reads no trajectory")
+                .diagnostic(Spot::Node(motion.node), format!("the study `{study}` reads no trajectory"))
                 .help("choose another motion"));
         }
         Ok(valid)
