@@ -30,6 +30,7 @@ use state::{Identity, State};
 
 pub use replay::replay;
 pub use shard::{Origin, Part, merge, part};
+pub use state::remove as discard;
 
 /// Runs a Monte Carlo study in memory.
 ///
@@ -82,17 +83,4 @@ pub fn kept(out: &Path) -> PathBuf {
     let mut name = out.file_name().unwrap_or_default().to_os_string();
     name.push(".partial");
     out.with_file_name(name)
-}
-
-/// Takes a folder of kept runs away, if there is one.
-///
-/// # Errors
-/// It cannot be removed.
-pub fn discard(kept: &Path) -> Result<(), Error> {
-    match std::fs::remove_dir_all(kept) {
-        Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
-            Err(Error::Write { path: kept.into(), source })
-        }
-        _ => Ok(()),
-    }
 }

@@ -164,6 +164,35 @@ impl State {
     }
 }
 
+/// Takes a folder of finished runs away, if there is one: what says whose they are goes last. Whenever the program ends, what
+/// is left can be opened again.
+///
+/// # Errors
+/// It cannot be removed.
+pub fn remove(folder: &Path) -> Result<(), Error> {
+    remove_by(folder, |path| match fs::symlink_metadata(path)?.is_dir() {
+        true => fs::remove_dir_all(path),
+        false => fs::remove_file(path),
+    })
+}
+
+fn remove_by(folder: &Path, mut take: impl FnMut(&Path) -> io::Result<()>) -> Result<(), Error> {
+    let entries = match fs::read_dir(folder) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        entries => entries.and_then(|entries| entries.map(|e| Ok(e?.path())).collect::<io::Result<Vec<_>>>()),
+    };
+    let failed = |path: &Path| {
+        let path = path.to_path_buf();
+        move |source| Error::Write { path, source }
+    };
+    let (last, others): (Vec<_>, Vec<_>) =
+        entries.map_err(failed(folder))?.into_iter().partition(|path| path.ends_with(IDENTITY));
+    for path in others.iter().chain(&last) {
+        take(path).map_err(failed(path))?;
+    }
+    fs::remove_dir(folder).map_err(failed(folder))
+}
+
 /// Begin and end of the name of a file of runs.
 const RUNS: &str = "runs-";
 const PARQUET: &str = ".parquet";
@@ -211,4 +240,39 @@ fn settle(part: &Path, path: &Path) -> Result<(), Error> {
 fn refused(folder: &Path, problem: impl Into<String>) -> Diagnostic {
     Diagnostic::new(folder, problem)
         .help("take the folder away to begin anew, or choose another place with --out DIR")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ended after any number of its steps, the removal leaves what the same study opens and another refuses.
+    #[test]
+    fn a_removal_that_is_cut_off_leaves_what_can_be_opened() {
+        let folder = std::env::temp_dir().join(format!("schuler-removal-{}", std::process::id()));
+        let of = |seed| Identity { version: "1".into(), scenario_hash: "a".into(), seed, runs: 30, rows: 1 };
+        let chunk = |first| Chunk { first, errors: vec![[1.0; 9]; 10] };
+        for kept in 0..=4_u64 {
+            let state = State::open(&folder, &of(1), vec![0.0]).unwrap();
+            for first in [0, 10, 20] {
+                state.save(&chunk(first), 1).unwrap();
+            }
+            let mut removed = 0;
+            let result = remove_by(&folder, |path| {
+                removed += 1;
+                if removed > kept { Err(io::ErrorKind::Interrupted.into()) } else { fs::remove_file(path) }
+            });
+            assert_eq!(result.is_ok(), kept == 4, "{kept}");
+            if kept < 4 {
+                assert!(State::open(&folder, &of(2), vec![0.0]).is_err(), "{kept}");
+            }
+            let state = State::open(&folder, &of(1), vec![0.0]).unwrap();
+            let ranges = state.ranges().unwrap();
+            assert_eq!(ranges.len() as u64, 3_u64.saturating_sub(kept));
+            assert!(ranges.iter().all(|range| state.load(range) == Some(chunk(range.start))));
+            remove(&folder).unwrap();
+            assert!(!folder.exists());
+        }
+        remove(&folder).unwrap();
+    }
 }

@@ -13,6 +13,8 @@ const SUMMARY: &str = "summary.json";
 /// The same of a folder of runs that are to be merged.
 pub const MANIFEST: &str = "manifest.json";
 const FIGURES: &str = "figures";
+/// Begin of the name of the empty folder that is made and taken away to see whether one can be made.
+const PROBE: &str = ".schuler-probe-";
 const EXPECTED: &str = "a new folder, an empty one, or one with nothing but the files of an earlier run, \
                         where new files can be made";
 const HELP: &str = "choose another folder with --out DIR";
@@ -25,12 +27,18 @@ pub struct Folder {
 
 impl Folder {
     /// Checks that `path` can become the folder of a run: it is absent, empty or holds nothing but the files
-    /// that an earlier run lists in its summary, and new files can be made. Nothing is left on the disk.
+    /// that an earlier run lists in its summary, and new files can be made. Nothing is left on the disk. Where a program was
+    /// killed while it put new results in the place of earlier ones, those are there again.
     ///
     /// # Errors
     /// [`Error::Input`] that says what is in the way.
     pub fn check(path: impl Into<PathBuf>) -> Result<Self, Error> {
         let folder = Folder { path: path.into() };
+        let target = folder.target();
+        if !target.exists() {
+            // Fails where there is nothing to give back.
+            let _ = fs::rename(beside(&target, "old"), &target);
+        }
         folder.usable().map_err(|(problem, found)| {
             Diagnostic::new(&folder.path, problem).expected(EXPECTED).found(found).help(HELP)
         })?;
@@ -53,12 +61,12 @@ impl Folder {
 
     /// As [`Folder::write`] with whatever `fill` puts into the new folder; its [`MANIFEST`] lists the files.
     pub(crate) fn put(&self, fill: impl FnOnce(&Path) -> Result<(), Error>) -> Result<(), Error> {
-        // A link stays, what it leads to is replaced.
-        let target = fs::canonicalize(&self.path).unwrap_or_else(|_| self.path.clone());
+        let target = self.target();
         let part = beside(&target, "part");
         let made = absent_above(&target);
         let new = |source| Error::Write { path: part.clone(), source };
-        let result = fs::create_dir_all(&part).map_err(new).and_then(|()| fill(&part)).and_then(|()| {
+        let begun = cleared(&part).and_then(|()| fs::create_dir_all(&part)).map_err(new);
+        let result = begun.and_then(|()| fill(&part)).and_then(|()| {
             // Somebody may have put a file there while the study ran.
             Folder::check(&self.path)?;
             replace(&target, &part).map_err(|source| Error::Write { path: self.path.clone(), source })
@@ -71,6 +79,11 @@ impl Folder {
             }
         }
         result
+    }
+
+    /// A link stays, what it leads to is replaced.
+    fn target(&self) -> PathBuf {
+        fs::canonicalize(&self.path).unwrap_or_else(|_| self.path.clone())
     }
 
     /// What is wrong with the folder, and what was found; `Ok` where it can be used.
@@ -98,7 +111,7 @@ impl Folder {
             }
         }
         // The nearest folder that exists must take a new one.
-        let target = fs::canonicalize(&self.path).unwrap_or_else(|_| self.path.clone());
+        let target = self.target();
         let absent = absent_above(&target);
         let above = match absent.last() {
             Some(absent) => absent.parent(),
@@ -109,10 +122,18 @@ impl Folder {
     }
 }
 
-/// `out/.name.part-123`.
+/// `out/.name.part`: the same in every process, so that the next one finds what a killed one left.
 fn beside(path: &Path, what: &str) -> PathBuf {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!(".{name}.{what}-{}", std::process::id()))
+    path.with_file_name(format!(".{name}.{what}"))
+}
+
+/// Takes away what a killed program had begun to write.
+fn cleared(part: &Path) -> io::Result<()> {
+    match fs::remove_dir_all(part) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
 }
 
 /// The folders above `path` that do not exist, the nearest first.
@@ -123,7 +144,7 @@ fn absent_above(path: &Path) -> Vec<PathBuf> {
 
 /// Makes an entry in a folder and takes it away.
 fn probe(folder: &Path) -> io::Result<()> {
-    let probe = folder.join(format!(".schuler-probe-{}", std::process::id()));
+    let probe = folder.join(format!("{PROBE}{}", std::process::id()));
     fs::create_dir(&probe).and_then(|()| fs::remove_dir(&probe))
 }
 
@@ -131,26 +152,39 @@ fn replace(target: &Path, part: &Path) -> io::Result<()> {
     if !target.exists() {
         return fs::rename(part, target);
     }
-    let (old, own) = (beside(target, "old"), own(target));
+    let old = beside(target, "old");
+    if old.exists() {
+        retire(&old)?;
+    }
     fs::rename(target, &old)?;
     if let Err(error) = fs::rename(part, target) {
         fs::rename(&old, target)?;
         return Err(error);
     }
-    // One by one and by name: what nobody listed cannot go.
-    for name in files(&old)?.iter().filter(|name| own.contains(*name)) {
+    retire(&old)
+}
+
+/// Takes the files of an earlier run away, one by one and by name: what nobody listed cannot go. The list itself goes last, so
+/// that who is killed meanwhile can be followed.
+fn retire(old: &Path) -> io::Result<()> {
+    let own = own(old);
+    let (lists, others): (Vec<_>, Vec<_>) = files(old)?
+        .into_iter()
+        .filter(|name| own.contains(name))
+        .partition(|name| [SUMMARY, MANIFEST].contains(&name.as_str()));
+    for name in others.iter().chain(&lists) {
         let path = old.join(name);
         if path.is_dir() { fs::remove_dir(path)? } else { fs::remove_file(path)? }
     }
-    fs::remove_dir(&old)
+    fs::remove_dir(old)
 }
 
-/// Every entry of a folder and of its figures, as a summary lists them; the folder of figures last.
+/// Every entry of a folder and of its figures, as a summary lists them; the folder of figures last. A probe whose maker was
+/// killed is none of them and goes.
 fn files(folder: &Path) -> io::Result<Vec<String>> {
     let mut names = Vec::new();
     let mut figures = false;
-    for entry in fs::read_dir(folder)? {
-        let entry = entry?;
+    for entry in entries(folder)? {
         let name = entry.file_name().to_string_lossy().into_owned();
         if name == FIGURES && entry.file_type()?.is_dir() {
             figures = true;
@@ -159,12 +193,21 @@ fn files(folder: &Path) -> io::Result<Vec<String>> {
         }
     }
     if figures {
-        for entry in fs::read_dir(folder.join(FIGURES))? {
-            names.push(format!("{FIGURES}/{}", entry?.file_name().to_string_lossy()));
+        for entry in entries(&folder.join(FIGURES))? {
+            names.push(format!("{FIGURES}/{}", entry.file_name().to_string_lossy()));
         }
         names.push(FIGURES.into());
     }
     Ok(names)
+}
+
+fn entries(folder: &Path) -> io::Result<Vec<fs::DirEntry>> {
+    let mut entries = fs::read_dir(folder)?.collect::<io::Result<Vec<_>>>()?;
+    entries.retain(|entry| {
+        let probe = entry.file_name().to_string_lossy().starts_with(PROBE);
+        !(probe && fs::remove_dir(entry.path()).is_ok())
+    });
+    Ok(entries)
 }
 
 /// What the summary in a folder lists, with itself and the folder of figures; nothing where there is no such summary.

@@ -192,6 +192,26 @@ fn a_folder_is_whole_or_not_there() {
     assert_eq!(fs::read_to_string(path.join("late.csv")).expect("still there"), "mine");
     assert!(path.join("imu.csv").is_file());
     assert_eq!(beside(&base.join("deep")), 1);
+    // What killed programs left is in nobody's way: a probe, results half written, earlier ones between two places.
+    fs::remove_file(path.join("late.csv")).expect("still there");
+    let earlier = fs::read(path.join("imu.csv")).expect("a table");
+    for inside in [path.clone(), path.join("figures")] {
+        fs::create_dir(inside.join(".schuler-probe-1")).expect("made");
+    }
+    fs::create_dir(base.join("deep/.run.part")).expect("made");
+    fs::write(base.join("deep/.run.part/imu.csv"), "half").expect("written");
+    fs::rename(&path, base.join("deep/.run.old")).expect("moved");
+    let folder = Folder::check(&path).expect("a place");
+    assert_eq!(fs::read(path.join("imu.csv")).expect("back"), earlier);
+    folder.write(&record, scenario.output.formats).expect("written");
+    assert_eq!(fs::read(path.join("imu.csv")).expect("a table"), earlier);
+    assert_eq!((beside(&path), beside(&base.join("deep"))), (3, 1));
+    // An earlier result whose removal was cut off.
+    fs::create_dir(base.join("deep/.run.old")).expect("made");
+    fs::copy(path.join("summary.json"), base.join("deep/.run.old/summary.json")).expect("copied");
+    folder.write(&record, scenario.output.formats).expect("written");
+    assert_eq!(beside(&base.join("deep")), 1);
+    fs::write(path.join("late.csv"), "mine").expect("written");
     // A summary that is none of ours lists nothing.
     let foreign = base.join("deep/foreign");
     fs::create_dir(&foreign).expect("made");
