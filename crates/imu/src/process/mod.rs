@@ -29,7 +29,7 @@ pub use linear::{LinearModel, MAX_STATES};
 pub use step::{Shape, Step};
 
 /// Every process, in the order of the documentation tables.
-pub const PROCESSES: &[&dyn ProcessKind] = &[
+pub static PROCESSES: &[&dyn ProcessKind] = &[
     &constant::Constant,
     &white::White,
     &random_walk::RandomWalk,

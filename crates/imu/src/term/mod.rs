@@ -36,7 +36,7 @@ mod vibropendulous;
 pub use mounting::mounting_coefficients;
 
 /// Every term, in the order of the documentation tables.
-pub const TERMS: &[&dyn Term] = &[
+pub static TERMS: &[&dyn Term] = &[
     &bias::Bias,
     &scale_factor::ScaleFactor,
     &asymmetry::Asymmetry,
