@@ -128,6 +128,28 @@ fn killed_and_started_again_it_ends_with_the_same_bytes() {
     assert!(kills == 20 && went_on >= 5, "{kills} kills, {went_on} of them with finished runs");
 }
 
+/// Killed at the very end, when its results are there and what was kept is being taken away.
+#[test]
+fn killed_when_its_results_are_there() {
+    let place = place("kill-last");
+    let short = ["--set", "monte_carlo.runs=1000", "--set", "duration=12 s"];
+    let run = |out: &str| command(&place, &[&["run", "a.yaml", "--out", out][..], &short].concat());
+    assert!(run("whole").status().expect("it starts").success());
+    for round in 0..8 {
+        let out = format!("killed-{round}");
+        let mut child = run(&out).spawn().expect("it starts");
+        while !place.0.join(&out).exists() && child.try_wait().expect("a child").is_none() {
+            std::hint::spin_loop();
+        }
+        let _ = child.kill();
+        let _ = child.wait();
+        let again = run(&out).output().expect("it starts");
+        assert_eq!(again.status.code(), Some(0), "{}", text(&again.stderr));
+        same(&place, "whole", &out);
+        assert!(!place.0.join(format!("{out}.partial")).exists());
+    }
+}
+
 /// Parts of any size, merged in any order, are the study.
 #[test]
 fn merged_parts_are_one_process() {
@@ -189,6 +211,16 @@ fn parts_that_do_not_belong_together_are_refused() {
     merge(&["a"], &["runs after this part are missing", "up to run 1000"]);
     merge(&["b"], &["runs before this part are missing"]);
     merge(&["a", "nowhere"], &["cannot read nowhere/manifest.json"]);
+    // Nothing but a part takes the place of one.
+    let part = files(&place.0.join("b"));
+    for arguments in [
+        &["merge", "a", "b", "--out", "b"][..],
+        &["run", "a.yaml", "--run", "3", "--out", "b"],
+        &["run", "a.yaml", "--out", "b"],
+    ] {
+        refused(&place, arguments, &["holds a part of a study", "`manifest.json`"]);
+    }
+    assert_eq!(files(&place.0.join("b")), part);
     // Another version.
     let manifest = fs::read_to_string(place.0.join("b/manifest.json")).expect("a manifest");
     let version = format!("\"version\": \"{}\"", env!("CARGO_PKG_VERSION"));
@@ -196,6 +228,11 @@ fn parts_that_do_not_belong_together_are_refused() {
     fs::write(place.0.join("b/manifest.json"), manifest.replace(&version, "\"version\": \"9.9.9\""))
         .expect("written");
     merge(&["a", "b"], &["another version", "9.9.9"]);
+    // A scenario that is not the one of the runs.
+    assert!(manifest.contains("duration: 40 s"), "{manifest}");
+    fs::write(place.0.join("b/manifest.json"), manifest.replace("duration: 40 s", "duration: 50 s"))
+        .expect("written");
+    merge(&["a", "b"], &["the scenario in its manifest is not the one of its runs"]);
     fs::write(place.0.join("b/manifest.json"), &manifest).expect("written");
     // A truncated file, a damaged one, and one of other runs.
     let runs = fs::read(place.0.join("b/runs.parquet")).expect("runs");

@@ -195,13 +195,14 @@ export RAYON_NUM_THREADS=\"${{SLURM_CPUS_PER_TASK:-1}}\"
 "
         )
     } else {
-        let run = quoted(&format!("{run} --shard {{}}/{parts} --out {folder}/{{}} --quiet"));
+        // Not `{{}}`, which may be in a name.
+        let run = quoted(&format!("{run} --shard @k@/{parts} --out {folder}/@k@ --quiet"));
         format!(
             "#!/bin/bash
 # Parts side by side, one a core, by GNU parallel; hosts are added with --sshlogin. Started again, what was killed goes on where it was.
 set -euo pipefail
 export RAYON_NUM_THREADS=1
-seq 1 {parts} | parallel --halt soon,fail=1 {run}
+seq 1 {parts} | parallel --halt soon,fail=1 -I @k@ {run}
 {merge}
 "
         )

@@ -47,7 +47,10 @@ pub fn run(args: &RunArgs) -> io::Result<End> {
             if only.is_some() {
                 monte_carlo::study(&scenario)?;
             }
-            let folder = Folder::check(out(args, file))?;
+            let folder = match &only {
+                Some(Only::Part(_)) => Folder::check_for_part(out(args, file))?,
+                _ => Folder::check(out(args, file))?,
+            };
             Ok((scenario, folder))
         });
         match job {

@@ -99,7 +99,9 @@ fn radii(scene: &Scene, statistics: &Statistics, predicted: Option<&[Predicted]>
     let rows = 0..scene.rows.len();
     let at = |row: usize, figure| statistics.figure(row, HORIZONTAL, figure);
     let q99 = RunFigure::Quantile(0.99);
-    let largest = rows.clone().map(|row| at(row, q99).high).fold(0.0, f64::max);
+    // Few runs have no upper end for the outer ones.
+    let finite = |x: f64, or: f64| if x.is_finite() { x } else { or };
+    let largest = rows.clone().map(|row| finite(at(row, q99).high, at(row, q99).value)).fold(0.0, f64::max);
     let shown = Quantity::Length.shown(largest);
     let mut panel = Panel::new(Axis::linear(format!("horizontal distance ({})", shown.symbol)));
     let mut named = false;
@@ -111,14 +113,17 @@ fn radii(scene: &Scene, statistics: &Statistics, predicted: Option<&[Predicted]>
         let line = all.iter().map(|(row, e)| [time(*row), e.value * shown.per_si]);
         panel = panel.with(Series::line(label, line).colour(Colour::palette(k)));
         for end in [|e: &super::statistics::Estimate| e.low, |e: &super::statistics::Estimate| e.high] {
+            if !all.iter().all(|(_, e)| end(e).is_finite()) {
+                continue;
+            }
             let line = all.iter().map(|(row, e)| [time(*row), end(e) * shown.per_si]);
-            let label = if named { "" } else { "99 % confidence" };
+            let label = if named { "" } else { "99 % confidence of each" };
             panel = panel.with(Series::line(label, line).style(Style::Dotted).colour(Colour::palette(k)));
             named = true;
         }
         if let Some(p) = predicted {
             let line = rows.clone().map(|row| [time(row), p[row].quantile(HORIZONTAL, share) * shown.per_si]);
-            let label = if k == 0 { "predicted" } else { "" };
+            let label = if k == 0 { "predicted, each" } else { "" };
             panel = panel.with(Series::line(label, line).style(Style::Dashed).colour(Colour::palette(k)));
         }
     }

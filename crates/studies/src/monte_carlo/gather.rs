@@ -54,7 +54,8 @@ impl<'a> Gathered<'a> {
                 && is_milestone(self.statistics.runs)
             {
                 let found = self.statistics.figure(row, until.quantity, until.figure);
-                self.done = found.high - found.low <= 2.0 * until.relative * found.value;
+                // Of what does not move, nothing becomes known by more runs.
+                self.done = found.value > 0.0 && found.high - found.low <= 2.0 * until.relative * found.value;
             }
         }
     }

@@ -157,17 +157,26 @@ pub fn notes(
                 "Over all rows {outside} of {all} sampled variances are outside their 99 % chi-square band about the predicted covariance; rows of one run hang together"
             ));
             let end = statistics.rows() - 1;
-            let (mut all, mut outside) = (0, 0);
+            let (mut all, mut outside, mut few) = (0, 0, 0);
             for k in (0..QUANTITIES).filter(|&k| predicted[end].sd(k) > 0.0) {
                 for share in quantiles() {
                     let found = statistics.figure(end, k, RunFigure::Quantile(share));
+                    if !found.high.is_finite() {
+                        few += 1;
+                        continue;
+                    }
                     all += 1;
                     outside +=
                         usize::from(!(found.low..=found.high).contains(&predicted[end].quantile(k, share)));
                 }
             }
             notes.push(format!(
-                "At the end {outside} of {all} predicted quantiles are outside the 99 % confidence interval of those of the runs"
+                "At the end {outside} of {all} predicted quantiles are outside the 99 % confidence interval of those of the runs{}",
+                if few == 0 {
+                    String::new()
+                } else {
+                    format!("; {few} more have no such interval, the runs being too few")
+                }
             ));
         }
     }

@@ -134,7 +134,10 @@ pub fn part(
         let fault = Diagnostic::new(&scenario.file, "the study has no such runs")
             .path("monte_carlo.runs")
             .expected(format!("runs within 0..{}", study.runs))
-            .found(format!("{}..{}", runs.start, runs.end));
+            .found(match part {
+                Part::Runs(runs) => format!("{}..{}", runs.start, runs.end),
+                Part::Shard { k, n } => format!("shard {k}/{n} of {} runs, which has none", study.runs),
+            });
         return Err(fault.into());
     }
     let scene = Scene::new(scenario, study);
@@ -197,6 +200,15 @@ pub fn merge(folders: &[PathBuf], progress: &dyn Progress) -> Result<(Scenario, 
             return Err(refused(folder, format!("a part of another {what}"))
                 .expected(expected)
                 .found(found)
+                .into());
+        }
+        let Origin { file, text, overrides } = &manifest.origin;
+        // The first part alone says what is merged: the others' words are compared with it by what they hash to.
+        let said = Scenario::load(file, text, overrides)?.hash;
+        if said != manifest.identity.scenario_hash {
+            return Err(refused(folder, "the scenario in its manifest is not the one of its runs")
+                .expected(manifest.identity.scenario_hash.clone())
+                .found(said)
                 .into());
         }
         let [start, end] = manifest.runs;

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::bands::{Z, chi_square_band, quantile_ranks};
+use super::bands::{QuantileRanks, Z, chi_square_band};
 use super::prediction::Predicted;
 use super::sketch::Sketch;
 use crate::scenario::{RunFigure, Threshold};
@@ -14,7 +14,7 @@ pub const HORIZONTAL: usize = 9;
 /// Runs of which every row is kept for pictures.
 pub const SHOWN: usize = 50;
 
-/// A figure with its 99 % confidence interval.
+/// A figure with its 99 % confidence interval, whose upper end is infinite where the runs are too few to give one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     /// As found.
@@ -142,8 +142,13 @@ impl<'a> Statistics<'a> {
         let square = match figure {
             RunFigure::Quantile(p) => {
                 let sketch = &r.sketches[quantity];
-                let [value, low, high] = quantile_ranks(p, sketch.total()).map(|rank| sketch.of_rank(rank));
-                return Estimate { value, low, high };
+                let ranks = QuantileRanks::of(p, sketch.total());
+                return Estimate {
+                    value: sketch.of_rank(ranks.value),
+                    // No magnitude is below zero; above, too few runs say nothing.
+                    low: ranks.low.map_or(0.0, |rank| sketch.of_rank(rank)),
+                    high: ranks.high.map_or(f64::INFINITY, |rank| sketch.of_rank(rank)),
+                };
             }
             RunFigure::Deviation => |r: &Row, k: usize| r.variance(k),
             RunFigure::Rms => |r: &Row, k: usize| r.mean_square(k),

@@ -23,6 +23,8 @@ const HELP: &str = "choose another folder with --out DIR";
 #[derive(Debug)]
 pub struct Folder {
     path: PathBuf,
+    /// Whether a part of a study, which only another part may replace, is in nobody's way.
+    for_part: bool,
 }
 
 impl Folder {
@@ -31,9 +33,21 @@ impl Folder {
     /// killed while it put new results in the place of earlier ones, those are there again.
     ///
     /// # Errors
-    /// [`Error::Input`] that says what is in the way.
+    /// [`Error::Input`] that says what is in the way; a part of a study is.
     pub fn check(path: impl Into<PathBuf>) -> Result<Self, Error> {
-        let folder = Folder { path: path.into() };
+        Folder { path: path.into(), for_part: false }.checked()
+    }
+
+    /// As [`Folder::check`], for a part of a study: it may take the place of a part.
+    ///
+    /// # Errors
+    /// As [`Folder::check`].
+    pub fn check_for_part(path: impl Into<PathBuf>) -> Result<Self, Error> {
+        Folder { path: path.into(), for_part: true }.checked()
+    }
+
+    fn checked(self) -> Result<Self, Error> {
+        let folder = self;
         let target = folder.target();
         if !target.exists() {
             // Fails where there is nothing to give back.
@@ -68,7 +82,7 @@ impl Folder {
         let begun = cleared(&part).and_then(|()| fs::create_dir_all(&part)).map_err(new);
         let result = begun.and_then(|()| fill(&part)).and_then(|()| {
             // Somebody may have put a file there while the study ran.
-            Folder::check(&self.path)?;
+            Folder { path: self.path.clone(), for_part: self.for_part }.checked()?;
             replace(&target, &part).map_err(|source| Error::Write { path: self.path.clone(), source })
         });
         if result.is_err() {
@@ -97,6 +111,12 @@ impl Folder {
                 return Err(("cannot write the results here".into(), "a file that is no folder".into()));
             }
             let files = files(&self.path).map_err(refused(&self.path))?;
+            if !self.for_part && files.iter().any(|name| name == MANIFEST) {
+                return Err((
+                    "the folder holds a part of a study, which would be lost".into(),
+                    format!("`{MANIFEST}`"),
+                ));
+            }
             let own = own(&self.path);
             if let Some(stranger) = files.iter().find(|name| !own.contains(*name)) {
                 return Err((
