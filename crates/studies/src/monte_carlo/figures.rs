@@ -104,26 +104,29 @@ fn radii(scene: &Scene, statistics: &Statistics, predicted: Option<&[Predicted]>
     let largest = rows.clone().map(|row| finite(at(row, q99).high, at(row, q99).value)).fold(0.0, f64::max);
     let shown = Quantity::Length.shown(largest);
     let mut panel = Panel::new(Axis::linear(format!("horizontal distance ({})", shown.symbol)));
-    let mut named = false;
-    for (k, (share, label)) in
-        [(0.5, "50 % of the runs"), (0.9, "90 %"), (0.95, "95 %"), (0.99, "99 %")].into_iter().enumerate()
-    {
-        let all: Vec<_> = rows.clone().map(|row| (row, at(row, RunFigure::Quantile(share)))).collect();
-        let time = |row: usize| scene.time(scene.rows[row]);
-        let line = all.iter().map(|(row, e)| [time(*row), e.value * shown.per_si]);
+    let time = |row: usize| scene.time(scene.rows[row]);
+    let shares = [(0.5, "50 % of the runs"), (0.9, "90 %"), (0.95, "95 %"), (0.99, "99 %")];
+    // First what the colours mean, then what the strokes do.
+    for (k, (share, label)) in shares.into_iter().enumerate() {
+        let line =
+            rows.clone().map(|row| [time(row), at(row, RunFigure::Quantile(share)).value * shown.per_si]);
         panel = panel.with(Series::line(label, line).colour(Colour::palette(k)));
+    }
+    let mut named = false;
+    for (k, (share, _)) in shares.into_iter().enumerate() {
+        let all: Vec<_> = rows.clone().map(|row| (row, at(row, RunFigure::Quantile(share)))).collect();
         for end in [|e: &super::statistics::Estimate| e.low, |e: &super::statistics::Estimate| e.high] {
             if !all.iter().all(|(_, e)| end(e).is_finite()) {
                 continue;
             }
             let line = all.iter().map(|(row, e)| [time(*row), end(e) * shown.per_si]);
-            let label = if named { "" } else { "99 % confidence of each" };
+            let label = if named { "" } else { "99 % confidence" };
             panel = panel.with(Series::line(label, line).style(Style::Dotted).colour(Colour::palette(k)));
             named = true;
         }
         if let Some(p) = predicted {
             let line = rows.clone().map(|row| [time(row), p[row].quantile(HORIZONTAL, share) * shown.per_si]);
-            let label = if k == 0 { "predicted, each" } else { "" };
+            let label = if k == 0 { "predicted" } else { "" };
             panel = panel.with(Series::line(label, line).style(Style::Dashed).colour(Colour::palette(k)));
         }
     }
