@@ -46,12 +46,16 @@ impl<'a> Gathered<'a> {
 
     /// The next runs; those after the one with which `until` is met are left out.
     pub fn add(&mut self, chunk: &Chunk) {
-        for (run, errors) in (chunk.first..).zip(chunk.runs(self.scene.rows.len())) {
-            if self.done {
-                return;
-            }
-            self.statistics.add(errors);
-            self.digest.add(run, errors);
+        let rows = self.scene.rows.len();
+        let (mut first, mut rest) = (chunk.first, &chunk.errors[..]);
+        while !self.done && !rest.is_empty() {
+            // As far as the next number of runs at which `until` is looked at.
+            let known = self.statistics.runs;
+            let all = (rest.len() / rows) as u64;
+            let count = (1..all).find(|k| self.until.is_some() && is_milestone(known + k)).unwrap_or(all);
+            let (now, later) = rest.split_at(count as usize * rows);
+            self.statistics.add(now);
+            now.chunks_exact(rows).zip(first..).for_each(|(errors, run)| self.digest.add(run, errors));
             if let Some((until, row)) = self.until
                 && is_milestone(self.statistics.runs)
             {
@@ -59,6 +63,7 @@ impl<'a> Gathered<'a> {
                 // Of what does not move, nothing becomes known by more runs.
                 self.done = found.value > 0.0 && found.high - found.low <= 2.0 * until.relative * found.value;
             }
+            (first, rest) = (first + count, later);
         }
     }
 
