@@ -3,7 +3,10 @@
 use std::{
     collections::VecDeque,
     ops::Range,
-    sync::{Mutex, PoisonError},
+    sync::{
+        Mutex, PoisonError,
+        atomic::{AtomicBool, Ordering},
+    },
 };
 
 use rayon::prelude::*;
@@ -77,18 +80,20 @@ fn advance(
     let waiting: VecDeque<_> = groups.iter_mut().map(|group| (stretch.start, group)).collect();
     let waiting = Mutex::new(waiting);
     let queue = || waiting.lock().unwrap_or_else(PoisonError::into_inner);
+    let failed = AtomicBool::new(false);
     (0..rayon::current_num_threads()).into_par_iter().with_max_len(1).try_for_each(|_| {
-        loop {
-            let Some((from, group)) = queue().pop_front() else { return Ok(()) };
+        while !failed.load(Ordering::Relaxed) {
+            let Some((from, group)) = queue().pop_front() else { break };
             let end = stretch.end.min(from + PIECE);
             let seen =
                 if scene.steady { seen } else { &seen[((from - stretch.start) / STEPS as u64) as usize..] };
-            group.advance(scene, from, end, seen)?;
+            group.advance(scene, from, end, seen).inspect_err(|_| failed.store(true, Ordering::Relaxed))?;
             progress.advance(group.errors.len() as u64);
             if end < stretch.end {
                 queue().push_back((end, group));
             }
         }
+        Ok(())
     })
 }
 
