@@ -1,6 +1,6 @@
 //! Coefficients in time, kept by what their step needs, so that a step is a few straight loops.
 //!
-//! Random words come for [`STEPS`] steps at a time, so as many are prepared at once. What is prepared is a
+//! Random words come for some [`STEPS`] steps at a time, and [`STEPS`] are prepared at once. What is prepared is a
 //! pure function of the state before it and the length of the step: it is no state itself. An interval
 //! mean takes one normal: see [`Innovation`](crate::process::Innovation).
 
@@ -11,7 +11,7 @@ use fearless_simd::{Simd, dispatch};
 use crate::error::Error;
 use crate::moving::{First, Second, add};
 use crate::process::{SETTLED, Shape};
-use crate::random::{Address, Key, Level, STEPS, best_level, fill_normals};
+use crate::random::{Address, Drawn, Key, Level, OCTETS, STEPS, best_level, fill_drawn};
 use crate::readout::DRAWS;
 use crate::sums::Sums;
 use crate::{Component, Instrument, Spec};
@@ -28,7 +28,7 @@ pub const MAX_SECOND: usize = 64;
 pub const MAX_MOVING: usize = MAX_WHITE + MAX_FIRST + MAX_SECOND;
 const MAX_DRAWS: usize = MAX_MOVING + 2 * DRAWS;
 /// Draws are made for this many addresses at a time.
-const TOGETHER: usize = 4;
+const TOGETHER: usize = 2;
 
 /// Where the parts of a component are kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +44,7 @@ pub(crate) struct Place {
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct Bank {
-    normals: [[f64; STEPS]; MAX_DRAWS],
+    normals: [Drawn; MAX_DRAWS],
     first: First,
     second: Second,
     pub level: Level,
@@ -59,7 +59,7 @@ pub(crate) struct Bank {
     settled: bool,
     draws: usize,
     addresses: [u64; MAX_DRAWS],
-    /// Which eight steps `normals` is for.
+    /// The first of the eights of steps that `normals` is for.
     octet: Option<u64>,
     /// Numbers of the steps that are prepared, each in the row of its place among eight.
     ahead: Range<u64>,
@@ -123,7 +123,7 @@ impl Bank {
             settled: false,
             draws: 0,
             addresses: [0; MAX_DRAWS],
-            normals: [[0.0; STEPS]; MAX_DRAWS],
+            normals: [[[0.0; STEPS]; OCTETS]; MAX_DRAWS],
             octet: None,
             ahead: 0..0,
         };
@@ -237,7 +237,7 @@ impl Bank {
     /// The readout's normals of step `step`, which has been prepared.
     pub fn readout_normals(&self, step: u64, instrument: Instrument) -> [f64; DRAWS] {
         let first = self.readout_draws() + instrument as usize * DRAWS;
-        [self.normals[first][row_of(step)], self.normals[first + 1][row_of(step)]]
+        [self.normals[first], self.normals[first + 1]].map(|drawn| drawn[octet_of(step)][row_of(step)])
     }
 
     /// Values of the parts at `place`, which are constant.
@@ -249,11 +249,12 @@ impl Bank {
     /// prepared together with it.
     pub fn mean(&self, place: Place, step: u64) -> f64 {
         let row = row_of(step);
+        let normal = |draw: usize| self.normals[draw][octet_of(step)][row];
         let part = |i: usize| match place.shape {
             Shape::Constant => self.constant[i],
-            Shape::White => self.white[i] * self.normals[self.white_draws() + i][row],
-            Shape::First => self.first.mean(i, row, self.normals[i][row]),
-            Shape::Second => self.second.mean(i, row, self.normals[self.first.count + i][row]),
+            Shape::White => self.white[i] * normal(self.white_draws() + i),
+            Shape::First => self.first.mean(i, row, normal(i)),
+            Shape::Second => self.second.mean(i, row, normal(self.first.count + i)),
             Shape::Free => self.second.mean(i, row, 0.0),
         };
         (place.first..place.first + place.count).map(part).sum()
@@ -286,11 +287,12 @@ impl Bank {
     /// length last prepared for. The states in `state` are afterwards those at the end of what is
     /// prepared; its number stays. The coefficients are added up in `sums`.
     pub fn prepare(&mut self, state: &mut BankState, sums: &mut Sums) {
-        let (octet, from) = (state.step / STEPS as u64, row_of(state.step));
-        if self.octet != Some(octet) {
+        let (octet, from) = (octet_of(state.step), row_of(state.step));
+        let first = state.step / STEPS as u64 - octet as u64;
+        if self.octet != Some(first) {
             let n = self.draws;
-            fill_normals(self.level, self.key.0, octet, &self.addresses[..n], &mut self.normals[..n]);
-            self.octet = Some(octet);
+            fill_drawn(self.level, self.key.0, first, &self.addresses[..n], &mut self.normals[..n]);
+            self.octet = Some(first);
         }
         let to = if state.is_settled() { STEPS } else { from + 1 };
         if !self.settled {
@@ -302,30 +304,42 @@ impl Bank {
             self.settled = !moves;
         }
         self.ahead = state.step..state.step + (to - from) as u64;
-        dispatch!(self.level, simd => self.forward(simd, state, sums, from..to));
+        dispatch!(self.level, simd => self.forward(simd, state, sums, octet, from..to));
     }
 
     /// Takes all parts through the steps of `rows` and adds up their means. Sums are made in all rows, also in
     /// those that are of no interest.
     #[inline(always)]
-    fn forward<S: Simd>(&mut self, simd: S, state: &mut BankState, sums: &mut Sums, rows: Range<usize>) {
+    fn forward<S: Simd>(
+        &mut self,
+        simd: S,
+        state: &mut BankState,
+        sums: &mut Sums,
+        octet: usize,
+        rows: Range<usize>,
+    ) {
         let (first, rest) = self.normals.split_at(self.first.count);
-        self.first.forward(simd, &self.normals, &mut state.first, rows.clone());
-        self.second.forward(simd, rest, &mut state.second, rows);
+        self.first.forward(simd, &self.normals, octet, &mut state.first, rows.clone());
+        self.second.forward(simd, rest, octet, &mut state.second, rows);
         sums.begin();
         for (i, (scale, w)) in self.white[..self.whites].iter().zip(&rest[self.seconds..]).enumerate() {
-            add(simd, sums.of(Shape::White, i), [(*scale, w)]);
+            add(simd, sums.of(Shape::White, i), [(*scale, &w[octet])]);
         }
         let mut i = 0;
         while i < first.len() {
             let parts = sums.firsts(i, first.len());
-            self.first.add(simd, parts.clone(), first, sums.of(Shape::First, i));
+            self.first.add(simd, parts.clone(), first, octet, sums.of(Shape::First, i));
             i = parts.end;
         }
         for (i, w) in rest[..self.second.count].iter().enumerate() {
-            self.second.add(simd, i, w, sums.of(Shape::Second, i));
+            self.second.add(simd, i, &w[octet], sums.of(Shape::Second, i));
         }
     }
+}
+
+/// Place of a step's eight among those whose normals are made together.
+fn octet_of(step: u64) -> usize {
+    (step / STEPS as u64 % OCTETS as u64) as usize
 }
 
 /// Row of a step: its place among eight.

@@ -22,7 +22,7 @@ use crate::{Component, Instrument, Motion, Spec, Stream, Truth};
 #[repr(C, align(64))]
 pub struct Imu {
     /// The sources' errors per instrument and axis.
-    errors: [[[f64; STEPS]; 3]; 2],
+    errors: Both,
     spec: Spec,
     bank: Bank,
     /// Its processes may be ahead of its step: see [`Bank::settle`].
@@ -57,7 +57,7 @@ impl Imu {
             bank,
             state,
             inputs: Inputs::NONE,
-            errors: [[[0.0; STEPS]; 3]; 2],
+            errors: NOTHING,
             chains: spec.readout.map(|r| [Chain::new(r.gyro), Chain::new(r.accel)]),
             readout_errors: [[0.0; 3]; 2],
             dt: 0.0,
@@ -120,32 +120,37 @@ impl Imu {
         }
     }
 
-    /// The next eight samples, over the intervals of `octet`, of which only the increments are of interest: in `increments` those of
-    /// angle (rad), then those of velocity (m/s), of each axis eight. The same numbers as by [`Imu::steps`]; what the motion
-    /// is to the terms has been worked out once for all instruments that go through it.
-    pub fn octet(&mut self, octet: &Octet, increments: &mut [[[f64; STEPS]; 3]; 2]) {
-        let ready = self.set_step(octet.dt) && self.row() == 0 && self.state.bank.is_settled();
-        let alike = self.chains.is_none() && octet.calibration == self.spec.calibration_temperature;
-        let Some(truth) = octet.increments.as_ref().filter(|_| ready && alike) else {
-            let mut samples = [Sample::default(); STEPS];
-            self.steps(octet.dt, octet.truths(), &mut samples);
-            for (row, sample) in samples.iter().enumerate() {
-                for i in 0..3 {
-                    (increments[0][i][row], increments[1][i][row]) = (sample.dtheta[i], sample.dv[i]);
+    /// The next samples, for each entry of `increments` eight over the intervals of `octet`, of which only the increments are of
+    /// interest: those of angle (rad), then those of velocity (m/s), of each axis eight. The same numbers as by [`Imu::steps`];
+    /// what the motion is to the terms has been worked out once for all instruments that go through it.
+    pub fn octets(&mut self, octet: &Octet, increments: &mut [Both]) {
+        let again = increments.len() > 1;
+        let mut constant = None;
+        for increments in increments {
+            let ready = self.set_step(octet.dt) && self.row() == 0 && self.state.bank.is_settled();
+            let alike = self.chains.is_none() && octet.calibration == self.spec.calibration_temperature;
+            let Some(truth) = octet.increments.as_ref().filter(|_| ready && alike) else {
+                let mut samples = [Sample::default(); STEPS];
+                self.steps(octet.dt, octet.truths(), &mut samples);
+                for (row, sample) in samples.iter().enumerate() {
+                    for i in 0..3 {
+                        (increments[0][i][row], increments[1][i][row]) = (sample.dtheta[i], sample.dv[i]);
+                    }
+                }
+                continue;
+            };
+            match constant {
+                Some(constant) => self.errors = constant,
+                None => {
+                    // The ledger tells of the last step alone.
+                    self.inputs.copy_row(STEPS - 1, &octet.inputs);
+                    self.sums.set_constant(&octet.inputs, &mut self.errors);
+                    constant = again.then_some(self.errors);
                 }
             }
-            return;
-        };
-        self.inputs.clone_from(&octet.inputs);
-        self.begin(STEPS);
-        let of = Instrument::ALL.into_iter().zip(&mut self.errors).zip(truth.iter().zip(increments));
-        for ((instrument, errors), (truth, increments)) in of {
-            self.sums.errors(instrument, &self.inputs, errors);
-            for i in 0..3 {
-                for row in 0..STEPS {
-                    increments[i][row] = truth[i][row] + errors[i][row] * octet.dt;
-                }
-            }
+            self.begin(STEPS);
+            self.sums.add_moving(&octet.inputs, &mut self.errors);
+            dispatch!(self.bank.level, simd => measure(simd, truth, &self.errors, octet.dt, increments));
         }
     }
 
@@ -186,9 +191,8 @@ impl Imu {
             self.inputs.set(row, truth, self.dt, self.spec.calibration_temperature);
         }
         let step = self.begin(STEPS);
-        for (instrument, errors) in Instrument::ALL.into_iter().zip(&mut self.errors) {
-            self.sums.errors(instrument, &self.inputs, errors);
-        }
+        self.sums.set_constant(&self.inputs, &mut self.errors);
+        self.sums.add_moving(&self.inputs, &mut self.errors);
         if self.chains.is_some() {
             return dispatch!(self.bank.level, simd => self.read_out_all(simd, step, samples));
         }
@@ -326,5 +330,23 @@ impl Imu {
     /// of gyroscopes (rad/s) and accelerometers (m/s²).
     pub fn readout_errors(&self) -> [[f64; 3]; 2] {
         self.readout_errors
+    }
+}
+
+/// Numbers of both instruments along each axis, for each of eight steps.
+pub(crate) type Both = [[[f64; STEPS]; 3]; 2];
+
+const NOTHING: Both = [[[0.0; STEPS]; 3]; 2];
+
+/// Increments over steps of `dt` seconds in which there was `truth` and, on the mean, `errors`.
+#[inline(always)]
+fn measure<S: Simd>(simd: S, truth: &Both, errors: &Both, dt: f64, increments: &mut Both) {
+    let n = S::f64s::LEN;
+    let of = truth.as_flattened().iter().zip(errors.as_flattened());
+    for ((truth, errors), increments) in of.zip(increments.as_flattened_mut()) {
+        for at in (0..STEPS).step_by(n) {
+            let [truth, error] = [truth, errors].map(|row| S::f64s::from_slice(simd, &row[at..at + n]));
+            (truth + error * dt).store_slice(&mut increments[at..at + n]);
+        }
     }
 }

@@ -9,7 +9,7 @@ use fearless_simd::prelude::*;
 
 use crate::bank::{MAX_FIRST, MAX_SECOND};
 use crate::process::Step;
-use crate::random::STEPS;
+use crate::random::{Drawn, STEPS};
 
 /// First-order parts, of each number those of all parts; what is not in use is zero.
 #[derive(Clone, Debug)]
@@ -82,12 +82,13 @@ impl First {
         self.mean[i] * self.before[i][row] + self.s[i] * w
     }
 
-    /// Takes the states `x` through `rows`.
+    /// Takes the states `x` through `rows`, with eight number `octet` of the normals.
     #[inline(always)]
     pub fn forward<S: Simd>(
         &mut self,
         simd: S,
-        normals: &[[f64; STEPS]],
+        normals: &[Drawn],
+        octet: usize,
         x: &mut [f64; MAX_FIRST],
         rows: Range<usize>,
     ) {
@@ -95,7 +96,7 @@ impl First {
             for i in 0..self.count {
                 for t in rows.clone() {
                     self.before[i][t] = x[i];
-                    x[i] = self.phi[i] * x[i] + self.k[i] * normals[i][t];
+                    x[i] = self.phi[i] * x[i] + self.k[i] * normals[i][octet][t];
                 }
             }
             return;
@@ -104,7 +105,7 @@ impl First {
         for at in (0..self.count).step_by(n) {
             let (phi, k, mut now) = (load(simd, &self.phi, at), load(simd, &self.k, at), load(simd, x, at));
             for from in (0..STEPS).step_by(n) {
-                let w = columns(simd, &normals[at..at + n], from);
+                let w = columns(simd, &normals[at..at + n], octet, from);
                 let mut before = w;
                 for t in 0..n {
                     before[t] = now;
@@ -116,14 +117,21 @@ impl First {
         }
     }
 
-    /// Adds the interval means of `parts` in all rows to `c`, with the normals of all parts.
+    /// Adds the interval means of `parts` in all rows to `c`, with eight number `octet` of the normals of all parts.
     #[inline(always)]
-    pub fn add<S: Simd>(&self, simd: S, parts: Range<usize>, normals: &[[f64; STEPS]], c: &mut [f64; STEPS]) {
+    pub fn add<S: Simd>(
+        &self,
+        simd: S,
+        parts: Range<usize>,
+        normals: &[Drawn],
+        octet: usize,
+        c: &mut [f64; STEPS],
+    ) {
         let n = S::f64s::LEN;
         for at in (0..STEPS).step_by(n) {
             let mut sum = load(simd, c, at);
             for i in parts.clone() {
-                let (x, w) = (load(simd, &self.before[i], at), load(simd, &normals[i], at));
+                let (x, w) = (load(simd, &self.before[i], at), load(simd, &normals[i][octet], at));
                 sum += x * self.mean[i] + w * self.s[i];
             }
             sum.store_slice(&mut c[at..at + n]);
@@ -179,7 +187,8 @@ impl Second {
     pub fn forward<S: Simd>(
         &mut self,
         simd: S,
-        normals: &[[f64; STEPS]],
+        normals: &[Drawn],
+        octet: usize,
         x: &mut [[f64; MAX_SECOND]; 2],
         rows: Range<usize>,
     ) {
@@ -189,7 +198,7 @@ impl Second {
         if rows.len() < STEPS {
             for i in 0..self.count {
                 for t in rows.clone() {
-                    let w = normals[i][t];
+                    let w = normals[i][octet][t];
                     (before1[i][t], before2[i][t]) = (x1[i], x2[i]);
                     x1[i] = p11[i] * before1[i][t] + p12[i] * before2[i][t] + k1[i] * w;
                     x2[i] = p21[i] * before1[i][t] + p22[i] * before2[i][t] + k2[i] * w;
@@ -204,7 +213,7 @@ impl Second {
             let (k1, k2) = (load(simd, k1, at), load(simd, k2, at));
             let (mut now1, mut now2) = (load(simd, x1, at), load(simd, x2, at));
             for from in (0..STEPS).step_by(n) {
-                let w = columns(simd, &normals[at..at + n], from);
+                let w = columns(simd, &normals[at..at + n], octet, from);
                 let (mut first, mut second) = (w, w);
                 for t in 0..n {
                     (first[t], second[t]) = (now1, now2);
@@ -251,13 +260,13 @@ pub(crate) fn add<S: Simd, const N: usize>(
     }
 }
 
-/// As many columns of `rows` as there are lanes, from column `from` on; the rest is of no interest.
+/// Of eight number `octet` of `rows` as many columns as there are lanes, from column `from` on; the rest is of no interest.
 #[inline(always)]
-fn columns<S: Simd>(simd: S, rows: &[[f64; STEPS]], from: usize) -> [S::f64s; STEPS] {
+fn columns<S: Simd>(simd: S, rows: &[Drawn], octet: usize, from: usize) -> [S::f64s; STEPS] {
     let n = S::f64s::LEN;
     let mut v = [S::f64s::splat(simd, 0.0); STEPS];
     for i in 0..n {
-        v[i] = load(simd, &rows[i], from);
+        v[i] = load(simd, &rows[i][octet], from);
     }
     transpose::<S>(v)
 }

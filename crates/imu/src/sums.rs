@@ -2,7 +2,11 @@
 
 use core::ops::Range;
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, dispatch};
+
 use crate::bank::{Bank, MAX_FIRST, MAX_MOVING, MAX_SECOND, MAX_WHITE};
+use crate::imu::Both;
 use crate::process::Shape;
 use crate::random::{Level, STEPS};
 use crate::term::{Coefficients, MAX_COEFFICIENTS, Term};
@@ -21,6 +25,8 @@ pub(crate) struct Sums {
     /// Those of the gyroscopes, then those of the accelerometers.
     groups: [Option<Group>; MAX_GROUPS],
     ranges: [Range<usize>; 2],
+    /// The first whose coefficients change.
+    first_moving: [usize; 2],
     /// Coefficients that change, and the sum of their constant sources.
     moving: [(u16, f64); MAX_MOVING],
     len: usize,
@@ -44,6 +50,7 @@ impl Sums {
             level: bank.level,
             groups: [None; MAX_GROUPS],
             ranges: [0..0, 0..0],
+            first_moving: [0; 2],
             sums: [[[0.0; STEPS]; MAX_COEFFICIENTS]; MAX_GROUPS],
             moving: [(0, 0.0); MAX_MOVING],
             len: 0,
@@ -65,6 +72,7 @@ impl Sums {
             let moves = |s: &Source| of().any(|o| o.term() == s.term() && !constant(o));
             let first = len;
             for moving in [false, true] {
+                self.first_moving[instrument as usize] = len;
                 for source in of().filter(|s| moves(s) == moving) {
                     if self.find(instrument, source.term()).is_none() {
                         self.groups[len] = Some(Group { instrument, term: source.term() });
@@ -149,13 +157,44 @@ impl Sums {
         error
     }
 
-    /// The same of all rows.
+    /// The output errors of all rows by terms that keep their value while the inputs do.
     #[inline]
-    pub fn errors(&self, instrument: Instrument, inputs: &Inputs, errors: &mut [[f64; STEPS]; 3]) {
-        let range = self.ranges[instrument as usize].clone();
-        *errors = [[0.0; STEPS]; 3];
+    pub fn set_constant(&self, inputs: &Inputs, errors: &mut Both) {
+        // In lanes: the first term would have to wait for single numbers.
+        dispatch!(self.level, simd => clear(simd, errors));
+        for (instrument, errors) in Instrument::ALL.into_iter().zip(errors) {
+            let Range { start, .. } = self.ranges[instrument as usize];
+            self.add(instrument, start..self.first_moving[instrument as usize], inputs, errors);
+        }
+    }
+
+    /// Adds the output errors of all rows by the other terms.
+    #[inline]
+    pub fn add_moving(&self, inputs: &Inputs, errors: &mut Both) {
+        for (instrument, errors) in Instrument::ALL.into_iter().zip(errors) {
+            let Range { end, .. } = self.ranges[instrument as usize];
+            self.add(instrument, self.first_moving[instrument as usize]..end, inputs, errors);
+        }
+    }
+
+    #[inline(always)]
+    fn add(
+        &self,
+        instrument: Instrument,
+        range: Range<usize>,
+        inputs: &Inputs,
+        errors: &mut [[f64; STEPS]; 3],
+    ) {
         for (sums, group) in self.sums[range.clone()].iter().zip(self.groups[range].iter().flatten()) {
             group.term.add_outputs(self.level, &inputs.seen_by(instrument), sums, errors);
         }
+    }
+}
+
+#[inline(always)]
+fn clear<S: Simd>(simd: S, errors: &mut Both) {
+    let zeros = S::f64s::splat(simd, 0.0);
+    for lanes in errors.as_flattened_mut().as_flattened_mut().chunks_exact_mut(S::f64s::LEN) {
+        zeros.store_slice(lanes);
     }
 }

@@ -141,7 +141,7 @@ pub(crate) struct Inputs {
 }
 
 /// Eight consecutive intervals as the terms take them: made once for all instruments that go through them, see
-/// [`Imu::octet`](crate::Imu::octet).
+/// [`Imu::octets`](crate::Imu::octets).
 #[derive(Clone, Debug)]
 pub struct Octet {
     truths: [Truth; STEPS],
@@ -207,6 +207,19 @@ impl Inputs {
         }
         self.delta_t[row] = truth.temperature - calibration;
         self.temperature_rate[row] = truth.temperature_rate;
+    }
+
+    /// Takes row `row` from `other`.
+    #[inline]
+    pub fn copy_row(&mut self, row: usize, other: &Inputs) {
+        for i in 0..3 {
+            self.omega[i][row] = other.omega[i][row];
+            self.f[i][row] = other.f[i][row];
+            self.omega_dot[i][row] = other.omega_dot[i][row];
+            self.vibration[i][row] = other.vibration[i][row];
+        }
+        self.delta_t[row] = other.delta_t[row];
+        self.temperature_rate[row] = other.temperature_rate[row];
     }
 
     /// What `instrument` sees.

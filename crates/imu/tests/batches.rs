@@ -75,7 +75,7 @@ fn a_batch_is_its_samples_one_by_one() {
     }
 }
 
-/// Eight intervals worked out once are the same samples: of increments, rates, both mixed; for instruments calibrated otherwise, with a
+/// Eight intervals worked out once are the same samples, however often they come: of increments, rates, both mixed; for instruments calibrated otherwise, with a
 /// readout, and in the middle of eight steps.
 #[test]
 fn octets_shared_by_instruments_are_the_samples() {
@@ -98,12 +98,15 @@ fn octets_shared_by_instruments_are_the_samples() {
             let dt = if k == 20 { 0.0 } else { 0.01 };
             let calibration = spec.calibration_temperature + if k % 5 == 4 { 1.0 } else { 0.0 };
             let octet = Octet::new(std::array::from_fn(|row| motions[k % 3](8 * k + row)), dt, calibration);
-            let mut increments = [[[0.0; 8]; 3]; 2];
-            many.octet(&octet, &mut increments);
-            for (row, truth) in octet.truths().iter().enumerate() {
-                let sample = one.step(dt, truth);
-                let found = increments.map(|axes| axes.map(|axis| axis[row].to_bits()));
-                assert_eq!(found, [sample.dtheta, sample.dv].map(|x| x.map(f64::to_bits)), "{k}, {row}");
+            let mut increments = [[[[0.0; 8]; 3]; 2]; 3];
+            let times = 1 + k % 4 % 3;
+            many.octets(&octet, &mut increments[..times]);
+            for increments in &increments[..times] {
+                for (row, truth) in octet.truths().iter().enumerate() {
+                    let sample = one.step(dt, truth);
+                    let found = increments.map(|axes| axes.map(|axis| axis[row].to_bits()));
+                    assert_eq!(found, [sample.dtheta, sample.dv].map(|x| x.map(f64::to_bits)), "{k}, {row}");
+                }
             }
             assert_eq!(many.save(), one.save());
             assert!(many.ledger().eq(one.ledger()));

@@ -65,26 +65,42 @@ pub const STEPS: usize = 8;
 /// one block serves four steps. The radius has 32 random bits, so that no normal is beyond 6.76. The
 /// number of addresses must be a multiple of 4 and not above that of `out`; a rest is left alone.
 pub fn fill_normals(level: Level, key: [u32; 2], octet: u64, addresses: &[u64], out: &mut [[f64; STEPS]]) {
-    dispatch!(level, simd => fill(simd, key, octet, addresses, out));
+    let out = out[..addresses.len()].as_flattened_mut();
+    dispatch!(level, simd => fill::<_, 2>(simd, key, 2 * octet, addresses, out));
+}
+
+/// Eights of steps whose normals are made together: two addresses then fill the widest lanes.
+pub(crate) const OCTETS: usize = 2;
+
+/// The normals of an address in them.
+pub(crate) type Drawn = [[f64; STEPS]; OCTETS];
+
+/// The same for [`OCTETS`] eights of steps, from that of number `octet` on. The number of addresses must be even.
+pub(crate) fn fill_drawn(level: Level, key: [u32; 2], octet: u64, addresses: &[u64], out: &mut [Drawn]) {
+    let out = out[..addresses.len()].as_flattened_mut().as_flattened_mut();
+    dispatch!(level, simd => fill::<_, { 2 * OCTETS }>(simd, key, 2 * octet, addresses, out));
 }
 
 /// First the words of all addresses, then their normals in the same place: each loop alone keeps the
-/// processor busier than both in one. In neighbouring lanes stand the two blocks of an address.
+/// processor busier than both in one. In neighbouring lanes stand the blocks of an address, `BLOCKS` from `first` on.
 #[inline(always)]
-fn fill<S: Simd>(simd: S, key: [u32; 2], octet: u64, addresses: &[u64], out: &mut [[f64; STEPS]]) {
+fn fill<S: Simd, const BLOCKS: usize>(
+    simd: S,
+    key: [u32; 2],
+    first: u64,
+    addresses: &[u64],
+    out: &mut [f64],
+) {
     let n = S::f64s::LEN;
-    let block = S::u64s::from_fn(simd, |i| 2 * octet + (i as u64 & 1));
-    let (low, high) = (block & WORD, block >> 32);
-    let out = &mut out[..addresses.len()];
-    for (addresses, out) in addresses.chunks_exact(n / 2).zip(out.chunks_exact_mut(n / 2)) {
-        let address = S::u64s::from_fn(simd, |i| addresses[i / 2]);
-        let words = philox(simd, [low, high, address & WORD, address >> 32], key);
-        for (word, out) in words.iter().zip(out.as_flattened_mut().chunks_exact_mut(n)) {
+    for (v, out) in out.chunks_exact_mut(4 * n).enumerate() {
+        let block = S::u64s::from_fn(simd, |i| first + ((v * n + i) % BLOCKS) as u64);
+        let address = S::u64s::from_fn(simd, |i| addresses[(v * n + i) / BLOCKS]);
+        let words = philox(simd, [block & WORD, block >> 32, address & WORD, address >> 32], key);
+        for (word, out) in words.iter().zip(out.chunks_exact_mut(n)) {
             word.bitcast::<S::f64s>().store_slice(out);
         }
     }
-    for out in out.chunks_exact_mut(n / 2) {
-        let out = out.as_flattened_mut();
+    for out in out.chunks_exact_mut(4 * n) {
         let [n0, n1] = pair(simd, word(simd, out, 0), word(simd, out, 1));
         let [n2, n3] = pair(simd, word(simd, out, 2), word(simd, out, 3));
         let (even, odd) = ([n0.zip_low(n2), n0.zip_high(n2)], [n1.zip_low(n3), n1.zip_high(n3)]);

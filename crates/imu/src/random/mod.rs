@@ -7,6 +7,7 @@ mod stream;
 
 pub use draws::Draws;
 pub use fearless_simd::Level;
+pub(crate) use lanes::{Drawn, OCTETS, fill_drawn};
 pub use lanes::{STEPS, best_level, fill_normals};
 pub use philox::philox4x32_10;
 pub use stream::Stream;

@@ -1,9 +1,12 @@
 //! From runs, made or kept, to their statistics.
 
-use std::time::{Duration, Instant};
+use std::{
+    ops::Range,
+    time::{Duration, Instant},
+};
 
 use super::{
-    prediction::{Predicted, prediction},
+    prediction::Predicted,
     runs::{Chunk, runs, units},
     scene::Scene,
     state::State,
@@ -24,9 +27,8 @@ pub struct Gathered<'a> {
 }
 
 impl<'a> Gathered<'a> {
-    /// Nothing yet.
-    pub fn new(scene: &'a Scene<'a>) -> Gathered<'a> {
-        let predicted = prediction(scene);
+    /// Nothing yet, beside what is predicted.
+    pub fn new(scene: &'a Scene<'a>, predicted: Result<Vec<Predicted>, String>) -> Gathered<'a> {
         let rows = scene.rows.len();
         let until = scene.study.until.map(|until| {
             let row = scene.rows.iter().position(|&k| (scene.time(k) - until.at).abs() < 0.5 * scene.dt);
@@ -44,12 +46,16 @@ impl<'a> Gathered<'a> {
 
     /// The next runs; those after the one with which `until` is met are left out.
     pub fn add(&mut self, chunk: &Chunk) {
-        for (run, errors) in (chunk.first..).zip(chunk.runs(self.scene.rows.len())) {
-            if self.done {
-                return;
-            }
-            self.statistics.add(errors);
-            self.digest.add(run, errors);
+        let rows = self.scene.rows.len();
+        let (mut first, mut rest) = (chunk.first, &chunk.errors[..]);
+        while !self.done && !rest.is_empty() {
+            // As far as the next number of runs at which `until` is looked at.
+            let known = self.statistics.runs;
+            let all = (rest.len() / rows) as u64;
+            let count = (1..all).find(|k| self.until.is_some() && is_milestone(known + k)).unwrap_or(all);
+            let (now, later) = rest.split_at(count as usize * rows);
+            self.statistics.add(now);
+            now.chunks_exact(rows).zip(first..).for_each(|(errors, run)| self.digest.add(run, errors));
             if let Some((until, row)) = self.until
                 && is_milestone(self.statistics.runs)
             {
@@ -57,6 +63,7 @@ impl<'a> Gathered<'a> {
                 // Of what does not move, nothing becomes known by more runs.
                 self.done = found.value > 0.0 && found.high - found.low <= 2.0 * until.relative * found.value;
             }
+            (first, rest) = (first + count, later);
         }
     }
 
@@ -92,50 +99,80 @@ fn is_milestone(runs: u64) -> bool {
     runs >= 128 && (runs.is_power_of_two() || (runs.is_multiple_of(3) && (runs / 3).is_power_of_two()))
 }
 
-/// The runs `first..last` in their order, some at a time: those that `state` has from there, the others made and kept there. Ends
-/// early when `take` wants no more.
-pub fn each_chunk(
-    scene: &Scene,
-    first: u64,
+/// The runs `first..last` in their order, some at a time: those that `state` has from there, the others made and kept there.
+pub struct Chunks<'a> {
+    scene: &'a Scene<'a>,
+    state: Option<&'a State>,
+    progress: &'a dyn Progress,
+    known: Vec<Range<u64>>,
+    keeper: Keeper<'a>,
+    at: u64,
     last: u64,
-    state: Option<&State>,
-    progress: &dyn Progress,
-    mut take: impl FnMut(&Chunk) -> Result<bool, Error>,
-) -> Result<(), Error> {
-    let known = state.map_or(Ok(Vec::new()), State::ranges)?;
-    let kept = |at: u64| known.iter().find(|range| range.start == at && range.end <= last).cloned();
-    let next =
-        |at: u64| known.iter().map(|range| range.start).filter(|start| *start > at).min().unwrap_or(last);
-    let (mut at, mut missing) = (first, 0);
-    while at < last {
-        let end = kept(at).map_or(next(at).min(last), |range| range.end);
-        missing += if kept(at).is_some() { 0 } else { end - at };
-        at = end;
+}
+
+impl<'a> Chunks<'a> {
+    /// Before the first of them.
+    ///
+    /// # Errors
+    /// What is in `state` cannot be found out.
+    pub fn new(
+        scene: &'a Scene<'a>,
+        runs: Range<u64>,
+        state: Option<&'a State>,
+        progress: &'a dyn Progress,
+    ) -> Result<Chunks<'a>, Error> {
+        let known = state.map_or(Ok(Vec::new()), State::ranges)?;
+        let keeper = Keeper::new(state, scene.rows.len());
+        let chunks = Chunks { scene, state, progress, known, keeper, at: runs.start, last: runs.end };
+        let (mut at, mut missing) = (runs.start, 0);
+        while at < runs.end {
+            let kept = chunks.kept(at);
+            let end = kept.as_ref().map_or(chunks.next_known(at), |range| range.end);
+            missing += if kept.is_some() { 0 } else { end - at };
+            at = end;
+        }
+        progress.begin("runs", units(scene) * missing);
+        Ok(chunks)
     }
-    progress.begin("runs", units(scene) * missing);
-    // Together as many as keep all threads busy; the motion is calculated once for them.
-    let together = 128.max(32 * rayon::current_num_threads() as u64);
-    let mut keeper = Keeper::new(state, scene.rows.len());
-    at = first;
-    while at < last {
-        let there = kept(at).and_then(|range| state?.load(&range));
+
+    /// The file of the runs from `at` on.
+    fn kept(&self, at: u64) -> Option<Range<u64>> {
+        self.known.iter().find(|range| range.start == at && range.end <= self.last).cloned()
+    }
+
+    /// Where the runs of the next file begin.
+    fn next_known(&self, at: u64) -> u64 {
+        let starts = self.known.iter().map(|range| range.start).filter(|start| *start > at);
+        starts.min().unwrap_or(self.last).min(self.last)
+    }
+
+    /// The next runs; after the last, when all are kept, none.
+    ///
+    /// # Errors
+    /// A run without numbers; an IMU that refuses its list; runs cannot be kept.
+    pub fn next(&mut self) -> Result<Option<Chunk>, Error> {
+        if self.at >= self.last {
+            self.keeper.keep()?;
+            return Ok(None);
+        }
+        let there = self.kept(self.at).and_then(|range| self.state?.load(&range));
         let chunk = match there {
             Some(chunk) => {
-                keeper.keep()?;
+                self.keeper.keep()?;
                 chunk
             }
             None => {
-                let made = runs(scene, at, last.min(at + together).min(next(at)), progress)?;
-                keeper.take(&made)?;
+                // Together as many as keep all threads busy; the motion is calculated once for them.
+                let together = 128.max(32 * rayon::current_num_threads() as u64);
+                let end = (self.at + together).min(self.next_known(self.at));
+                let made = runs(self.scene, self.at, end, self.progress)?;
+                self.keeper.take(&made)?;
                 made
             }
         };
-        at += (chunk.errors.len() / scene.rows.len()) as u64;
-        if !take(&chunk)? {
-            return Ok(());
-        }
+        self.at += (chunk.errors.len() / self.scene.rows.len()) as u64;
+        Ok(Some(chunk))
     }
-    keeper.keep()
 }
 
 /// Runs that are made and not yet kept. Waiting for the disk shall not cost more than a fifth of the time.

@@ -98,7 +98,7 @@ impl Group {
     }
 
     /// What the instruments go through in the samples from `first` on, up to `end`, eight by eight; `first` is a multiple of eight.
-    /// A steady course is like any block of it.
+    /// A steady course is like any eight of it.
     pub fn seen(course: &Course, first: u64, end: u64) -> Vec<Octet> {
         let calibration = course.imu.spec.calibration_temperature;
         let octet = |k: u64| {
@@ -106,7 +106,7 @@ impl Group {
             Octet::new(truths, course.dt, calibration)
         };
         if course.steady {
-            return vec![octet(0); AHEAD];
+            return vec![octet(0)];
         }
         let eights = (end - first).div_ceil(STEPS as u64);
         (0..eights).into_par_iter().map(|k| octet(first + k * STEPS as u64)).collect()
@@ -121,8 +121,10 @@ impl Group {
         while at < end {
             let within = (at % BLOCK as u64) as usize;
             if within == 0 && (!self.same || at == 0) {
-                let first = if course.steady { 0 } else { (at - from) as usize / STEPS };
-                self.measure(&seen[first..seen.len().min(first + AHEAD)]);
+                // A steady course is the same eight samples over and over.
+                let (first, times) =
+                    if course.steady { (0, AHEAD) } else { ((at - from) as usize / STEPS, 1) };
+                self.measure(&seen[first..seen.len().min(first + AHEAD)], times);
             }
             let row = course.rows[self.errors[0].len()];
             let until = (at + (BLOCK - within) as u64).min(row).min(end);
@@ -135,17 +137,17 @@ impl Group {
         Ok(())
     }
 
-    /// What the instruments say.
-    fn measure(&mut self, seen: &[Octet]) {
+    /// What the instruments say, `times` of each of what is `seen`.
+    fn measure(&mut self, seen: &[Octet], times: usize) {
         for (imu, said) in self.imus.iter_mut().zip(&mut self.said) {
-            for (octet, said) in seen.iter().zip(&mut said.0) {
-                imu.octet(octet, said);
+            for (octet, said) in seen.iter().zip(said.0.chunks_mut(times)) {
+                imu.octets(octet, said);
             }
         }
         if let Navigators::Lanes(_) = self.navigators {
             let last = self.said.len() - 1;
             let each: [&Said; LANES] = std::array::from_fn(|lane| &self.said[lane.min(last)]);
-            for (k, increments) in self.block[..seen.len() * STEPS].iter_mut().enumerate() {
+            for (k, increments) in self.block[..seen.len() * times * STEPS].iter_mut().enumerate() {
                 *increments = across(&each, k);
             }
         }

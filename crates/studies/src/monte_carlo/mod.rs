@@ -24,7 +24,8 @@ mod tests;
 use std::path::{Path, PathBuf};
 
 use crate::{Context, Error, Scenario, record::Record, scenario::MonteCarlo};
-use gather::{Gathered, each_chunk};
+use gather::{Chunks, Gathered};
+use prediction::prediction;
 use scene::Scene;
 use state::{Identity, State};
 
@@ -63,11 +64,17 @@ fn gathered(
     state: Option<&State>,
     context: &Context,
 ) -> Result<Record, Error> {
-    let mut gathered = Gathered::new(scene);
-    each_chunk(scene, 0, scene.study.runs, state, context.progress, |chunk| {
-        gathered.add(chunk);
-        Ok(!gathered.done)
-    })?;
+    let mut chunks = Chunks::new(scene, 0..scene.study.runs, state, context.progress)?;
+    // Nothing is compared with the prediction before the first runs are there.
+    let (predicted, mut next) = rayon::join(|| prediction(scene), || chunks.next());
+    let mut gathered = Gathered::new(scene, predicted);
+    while let Some(chunk) = next? {
+        gathered.add(&chunk);
+        if gathered.done {
+            break;
+        }
+        next = chunks.next();
+    }
     let mut record = gathered.record(scenario);
     record.judge(scenario);
     Ok(record)

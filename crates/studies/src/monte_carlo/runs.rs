@@ -1,16 +1,30 @@
 //! Runs of a study, all under the same stretch of the motion at a time.
 
+use std::{
+    collections::VecDeque,
+    ops::Range,
+    sync::{
+        Mutex, PoisonError,
+        atomic::{AtomicBool, Ordering},
+    },
+};
+
 use rayon::prelude::*;
 use schuler_frames::{Vec3, with_phi, with_position_error};
-use schuler_imu::{Stream, random::Draws};
+use schuler_imu::{
+    Octet, Stream,
+    random::{Draws, STEPS},
+};
 use schuler_strapdown::{LANES, Pva};
 
 use super::{group::Group, scene::Scene};
 use crate::{Error, Progress};
 
-/// Samples of a stretch of time, for which the motion is calculated once for all runs: at its end they wait for each other, which
-/// costs less the longer it is, and each takes 300 bytes.
-const STRETCH: usize = 16_384;
+/// Samples of a stretch of time, for which the motion is calculated once for all runs: at its end they wait for each other, and
+/// each takes 300 bytes.
+const STRETCH: u64 = 32_768;
+/// Samples that eight runs are taken on at a time, while a thread has them: the shorter, the less the threads wait.
+const PIECE: u64 = 4096;
 
 /// Navigation errors of consecutive runs at each row.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,24 +55,51 @@ pub fn runs(scene: &Scene, first: u64, last: u64, progress: &dyn Progress) -> Re
         Group::new(scene, &scene.study.imu.spec, streams, |lane, _| Ok(starts[lane]))
     };
     let mut groups = starts.map(group).collect::<Result<Vec<_>, _>>()?;
+    // At rest there is no motion to calculate, and nothing to wait for.
+    let stretch = if scene.steady { u64::MAX } else { STRETCH };
     let mut from = 0;
     while from < scene.study.samples {
-        let end = scene.study.samples.min(from + STRETCH as u64);
+        let end = scene.study.samples.min(from.saturating_add(stretch));
         let seen = Group::seen(scene, from, end);
-        groups.par_iter_mut().try_for_each(|group| {
-            group.advance(scene, from, end, &seen)?;
-            progress.advance(group.errors.len() as u64);
-            Ok::<(), Error>(())
-        })?;
+        advance(scene, &mut groups, from..end, &seen, progress)?;
         from = end;
     }
     let errors = groups.into_iter().flat_map(|group| group.errors.into_iter().flatten()).collect();
     Ok(Chunk { first, errors })
 }
 
+/// Takes all groups through the samples `stretch`, in which they go through what is `seen`. Each thread takes the one that is the
+/// furthest behind, so that they end together.
+fn advance(
+    scene: &Scene,
+    groups: &mut [Group],
+    stretch: Range<u64>,
+    seen: &[Octet],
+    progress: &dyn Progress,
+) -> Result<(), Error> {
+    let waiting: VecDeque<_> = groups.iter_mut().map(|group| (stretch.start, group)).collect();
+    let waiting = Mutex::new(waiting);
+    let queue = || waiting.lock().unwrap_or_else(PoisonError::into_inner);
+    let failed = AtomicBool::new(false);
+    (0..rayon::current_num_threads()).into_par_iter().with_max_len(1).try_for_each(|_| {
+        while !failed.load(Ordering::Relaxed) {
+            let Some((from, group)) = queue().pop_front() else { break };
+            let end = stretch.end.min(from + PIECE);
+            let seen =
+                if scene.steady { seen } else { &seen[((from - stretch.start) / STEPS as u64) as usize..] };
+            group.advance(scene, from, end, seen).inspect_err(|_| failed.store(true, Ordering::Relaxed))?;
+            progress.advance(group.errors.len() as u64);
+            if end < stretch.end {
+                queue().push_back((end, group));
+            }
+        }
+        Ok(())
+    })
+}
+
 /// Units of progress that a run is worth.
 pub fn units(scene: &Scene) -> u64 {
-    scene.study.samples.div_ceil(STRETCH as u64)
+    scene.study.samples.div_ceil(PIECE)
 }
 
 /// Where a run begins: the truth and its initial errors.

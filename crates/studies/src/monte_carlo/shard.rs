@@ -9,8 +9,9 @@ use std::{
 use serde::{Deserialize, Serialize};
 
 use super::{
-    gather::{Gathered, each_chunk},
+    gather::{Chunks, Gathered},
     open,
+    prediction::prediction,
     runs::Chunk,
     scene::Scene,
     state::Identity,
@@ -151,15 +152,16 @@ pub fn part(
     }
     let state = open(scenario, &scene, kept)?;
     // First all of them are made, then they become one file: nothing but whole results is ever seen.
-    each_chunk(&scene, runs.start, runs.end, Some(&state), context.progress, |_| Ok(true))?;
+    let mut chunks = Chunks::new(&scene, runs.clone(), Some(&state), context.progress)?;
+    while chunks.next()?.is_some() {}
     let times: Vec<f64> = scene.rows.iter().map(|&k| scene.time(k)).collect();
     let mut digest = String::new();
     folder.put(|new| {
         let mut writer = Writer::create(&new.join(RUNS), &times)?;
-        each_chunk(&scene, runs.start, runs.end, Some(&state), &crate::Silent, |chunk| {
-            writer.add(chunk)?;
-            Ok(true)
-        })?;
+        let mut chunks = Chunks::new(&scene, runs.clone(), Some(&state), &crate::Silent)?;
+        while let Some(chunk) = chunks.next()? {
+            writer.add(&chunk)?;
+        }
         digest = writer.finish()?;
         let manifest = Manifest {
             format: 1,
@@ -232,7 +234,7 @@ pub fn merge(folders: &[PathBuf], progress: &dyn Progress) -> Result<(Scenario, 
             .found(format!("the last is {}", next - 1))
             .into());
     }
-    let mut gathered = Gathered::new(&scene);
+    let mut gathered = Gathered::new(&scene, prediction(&scene));
     progress.begin("parts", parts.len() as u64);
     for (folder, manifest) in &parts {
         read(folder, manifest, |chunk| gathered.add(chunk))?;

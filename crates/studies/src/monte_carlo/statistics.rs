@@ -1,6 +1,9 @@
 //! Figures of all runs, gathered run by run in the order of their numbers.
 
+use std::sync::OnceLock;
+
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 
 use super::bands::{QuantileRanks, Z, chi_square_band};
 use super::prediction::Predicted;
@@ -30,6 +33,8 @@ pub struct Statistics<'a> {
     rows: Vec<Row>,
     /// Runs so far.
     pub runs: u64,
+    /// 99 % band of their variances, which is worked out once.
+    band: OnceLock<[f64; 2]>,
     /// The first runs.
     pub shown: Vec<Vec<[f64; 9]>>,
 }
@@ -106,18 +111,26 @@ impl<'a> Statistics<'a> {
             nees: predicted.and_then(|rows| Whitening::new(&rows[k])),
             nees_sum: 0.0,
         };
-        Statistics { thresholds, rows: (0..rows).map(row).collect(), runs: 0, shown: Vec::new() }
+        let rows = (0..rows).map(row).collect();
+        Statistics { thresholds, rows, runs: 0, band: OnceLock::new(), shown: Vec::new() }
     }
 
-    /// One run more: its errors at each row.
-    pub fn add(&mut self, run: &[[f64; 9]]) {
-        self.runs += 1;
-        if self.shown.len() < SHOWN {
-            self.shown.push(run.to_vec());
-        }
-        for (row, error) in self.rows.iter_mut().zip(run) {
-            row.add(error, self.thresholds);
-        }
+    /// More runs, one after the other: the errors of each at each row.
+    pub fn add(&mut self, errors: &[[f64; 9]]) {
+        let (rows, thresholds) = (self.rows.len(), self.thresholds);
+        self.runs += (errors.len() / rows) as u64;
+        self.band = OnceLock::new();
+        let more = SHOWN - self.shown.len();
+        self.shown.extend(errors.chunks_exact(rows).take(more).map(<[_]>::to_vec));
+        self.rows.par_iter_mut().enumerate().for_each(|(k, row)| {
+            errors.iter().skip(k).step_by(rows).for_each(|error| row.add(error, thresholds));
+        });
+    }
+
+    /// [`chi_square_band`].
+    fn band(&self, freedom: f64) -> [f64; 2] {
+        let band = || chi_square_band(freedom);
+        if freedom == (self.runs - 1) as f64 { *self.band.get_or_init(band) } else { band() }
     }
 
     /// Rows.
@@ -163,7 +176,7 @@ impl<'a> Statistics<'a> {
         if value == 0.0 {
             return Estimate { value, low: 0.0, high: 0.0 };
         }
-        let [low, high] = chi_square_band(freedom);
+        let [low, high] = self.band(freedom);
         Estimate { value: value.sqrt(), low: (value / high).sqrt(), high: (value / low).sqrt() }
     }
 
@@ -233,7 +246,7 @@ pub fn verdict(
     } else {
         runs
     };
-    let [low, high] = chi_square_band(freedom);
+    let [low, high] = statistics.band(freedom);
     Some(Verdict { ratio: (found / sd).powi(2), low, high })
 }
 

@@ -231,7 +231,7 @@ fn one_thread_or_two_give_the_same_bytes() {
 fn found<'a>(scene: &Scene<'a>, predicted: &[Predicted]) -> Statistics<'a> {
     let mut statistics = Statistics::new(scene.rows.len(), Some(predicted), &scene.study.thresholds);
     let chunk = runs(scene, 0, scene.study.runs, &Silent).unwrap();
-    chunk.runs(scene.rows.len()).for_each(|run| statistics.add(run));
+    statistics.add(&chunk.errors);
     statistics
 }
 
