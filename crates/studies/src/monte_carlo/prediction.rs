@@ -51,10 +51,9 @@ pub fn prediction(scene: &Scene) -> Result<Vec<Predicted>, String> {
             "no covariance is predicted for a third-order vertical loop, which has a state of its own".into(),
         );
     }
-    // As small as holds them: what is not used costs room on the stack.
+    // As small as holds them: what is not used costs room on the stack. No more widths, each of which is compiled by itself.
     sized::<24>(scene)
-        .or_else(|| sized::<48>(scene))
-        .or_else(|| sized::<96>(scene))
+        .or_else(|| sized::<64>(scene))
         .or_else(|| sized::<192>(scene))
         .ok_or_else(|| "no covariance is predicted: the error sources have more than 183 states".into())
 }
