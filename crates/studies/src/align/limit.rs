@@ -23,7 +23,7 @@ pub struct Limit {
     /// Density of the noise of the measured velocity, m²/s.
     pub velocity: f64,
     /// Whether it rocks.
-    rocks: bool,
+    pub rocks: bool,
     /// When the base is first turned from one position to another, s.
     pub turn: Option<f64>,
 }
@@ -46,7 +46,8 @@ pub struct Means {
 }
 
 impl Means {
-    const NONE: Means = Means { mean: [Vec3::ZERO; 2], spread: [Matrix3::new(0., 0., 0., 0., 0., 0., 0., 0., 0.); 2] };
+    const NONE: Means =
+        Means { mean: [Vec3::ZERO; 2], spread: [Matrix3::new(0., 0., 0., 0., 0., 0., 0., 0., 0.); 2] };
 
     fn add(&mut self, part: &Part, [mean, variance]: [f64; 2]) {
         let (i, column) = (part.instrument as usize, part.column.as_nalgebra());
@@ -121,23 +122,26 @@ impl Limit {
 
     /// Root mean square of phi (rad) that `means` leave in a method of this kind.
     pub fn left(&self, kind: &MethodKind, means: &Means) -> [f64; 3] {
-        let value = self.linear(kind, means.mean).as_array();
+        let square = self.left_squares(kind, means);
+        std::array::from_fn(|axis| square[(axis, axis)].sqrt())
+    }
+
+    /// Means of the products of the three (rad²).
+    fn left_squares(&self, kind: &MethodKind, means: &Means) -> Matrix3<f64> {
+        let value = self.linear(kind, means.mean).as_nalgebra();
         // Linear in the six errors: the columns, one error at a time.
         let unit = |k: usize| Vec3::<T>::claim(std::array::from_fn(|i| if i == k { 1.0 } else { 0.0 }));
-        let columns: [Vec3<T>; 6] = std::array::from_fn(|k| match k {
-            0..3 => self.linear(kind, [unit(k), Vec3::ZERO]),
-            _ => self.linear(kind, [Vec3::ZERO, unit(k - 3)]),
-        });
-        std::array::from_fn(|axis| {
-            let mut variance = value[axis] * value[axis];
-            for (instrument, spread) in means.spread.iter().enumerate() {
-                for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
-                    let column = |k: usize| columns[3 * instrument + k][axis];
-                    variance += column(i) * spread[(i, j)] * column(j);
-                }
-            }
-            variance.sqrt()
-        })
+        let of_gyro = |k: usize| self.linear(kind, [unit(k), Vec3::ZERO]).as_nalgebra();
+        let of_accel = |k: usize| self.linear(kind, [Vec3::ZERO, unit(k)]).as_nalgebra();
+        let columns = [
+            Matrix3::from_columns(&[of_gyro(0), of_gyro(1), of_gyro(2)]),
+            Matrix3::from_columns(&[of_accel(0), of_accel(1), of_accel(2)]),
+        ];
+        let mut squares = value * value.transpose();
+        for (columns, spread) in columns.iter().zip(&means.spread) {
+            squares += columns * spread * columns.transpose();
+        }
+        squares
     }
 
     /// phi (rad) that constant errors leave, to first order.
@@ -150,7 +154,7 @@ impl Limit {
                 Vec3::new(n, 0.5 * ((nabla[2] * s / c - nabla[0]) / g - eps[2] / (o * c)), d)
             }
             &MethodKind::Gyrocompass(tau) => {
-                Gyrocompass::new(Rot::identity(), self.position, self.gravity, tau).settled(eps, nabla)
+                Gyrocompass::new(Rot::IDENTITY, self.position, self.gravity, tau).settled(eps, nabla)
             }
             _ => Vec3::new(n, e, d),
         }
@@ -169,13 +173,14 @@ impl Limit {
         };
         match kind {
             MethodKind::Triad(_) => self.left(kind, &self.white_means(t, |_| true)),
-            &MethodKind::Inertial { solution, latitude_known: true } => of_axes(
-                &|n| self.laws.inertial_angle_walk(solution, n, t),
-                &|q| self.laws.inertial_velocity_walk(solution, q, t),
-            ),
+            &MethodKind::Inertial { solution, latitude_known: true } => {
+                of_axes(&|n| self.laws.inertial_angle_walk(solution, n, t), &|q| {
+                    self.laws.inertial_velocity_walk(solution, q, t)
+                })
+            }
             MethodKind::Inertial { latitude_known: false, .. } => [f64::NAN; 3],
             &MethodKind::Gyrocompass(tau) if t >= SETTLED * tau => {
-                let settled = Gyrocompass::new(Rot::identity(), self.position, self.gravity, tau);
+                let settled = Gyrocompass::new(Rot::IDENTITY, self.position, self.gravity, tau);
                 of_axes(&|n| settled.angle_walk(n), &|q| settled.velocity_walk(q))
             }
             MethodKind::Gyrocompass(_) => [f64::NAN; 3],
@@ -212,6 +217,15 @@ impl Limit {
         }
         let (stays, noise) = (self.left(kind, means), self.noise(kind, t));
         std::array::from_fn(|k| stays[k].hypot(noise[k]))
+    }
+
+    /// Means of the products of phi (rad²): of what stays with the variances of noise on its diagonal.
+    pub fn total_squares(&self, kind: &MethodKind, means: &Means, t: f64) -> Matrix3<f64> {
+        let mut squares = self.left_squares(kind, means);
+        for (axis, total) in self.total(kind, means, t).into_iter().enumerate() {
+            squares[(axis, axis)] = total * total;
+        }
+        squares
     }
 
     /// What a reader must know of the limits, `t` (s) being the time of the alignment.

@@ -37,7 +37,7 @@ pub fn run(
     let mut errors = Table::new("errors", &columns::ERRORS, &["source", "way"]);
     let mut found: Vec<Vec<[f64; 3]>> = vec![Vec::new(); study.methods.len()];
     let mut failures: Vec<String> = Vec::new();
-    let mut work = Work::new(study, window as f64 * dt);
+    let mut work = Work::new(study, &place, window as f64 * dt);
     let mut navigators: Vec<Option<LocalLevel>> = Vec::new();
     let mut free = Samples::new(coning);
     let mut k = 0u64;
@@ -76,7 +76,7 @@ pub fn run(
                     )),
                 }
             }
-            work = Work::new(study, window as f64 * dt);
+            work = Work::new(study, &place, window as f64 * dt);
         }
         let navigated = k.saturating_sub(window);
         if navigated > 0 && navigated <= study.navigate && navigated.is_multiple_of(stride) {
@@ -120,13 +120,13 @@ struct Work {
 }
 
 impl Work {
-    fn new(study: &AlignStudy, duration: f64) -> Work {
+    fn new(study: &AlignStudy, place: &Place, duration: f64) -> Work {
         let coarse = match study.coarse {
             Some(Coarse::Triad(ready)) => Some((ready, Worker::mean())),
             Some(Coarse::Inertial(ready)) => Some((ready, Worker::inertial(ready as f64 / study.rate()))),
             Some(Coarse::Value(_) | Coarse::Sigma(_)) | None => None,
         };
-        let workers = study.methods.iter().map(|m| Worker::new(m, duration)).collect();
+        let workers = study.methods.iter().map(|m| Worker::new(m, place, duration)).collect();
         Work { workers, coarse, samples: Samples::new(study.mechanization.coning) }
     }
 

@@ -263,8 +263,9 @@ pub mod columns {
         "f_z_mps2",
     ];
     /// `consistency.csv` of an alignment: mean NEES a degree of freedom with its 99 % band, and the square of the heading error
-    /// over that of its own standard deviation with its band.
-    pub const CONSISTENCY: [&str; 8] = [
+    /// over that of its own standard deviation with its band; of a filter the mean NIS a degree of freedom of the updates since the row
+    /// before, with its band.
+    pub const CONSISTENCY: [&str; 11] = [
         "t_s",
         "source",
         "nees_ratio",
@@ -273,6 +274,9 @@ pub mod columns {
         "heading_ratio",
         "heading_low_ratio",
         "heading_high_ratio",
+        "nis_ratio",
+        "nis_low_ratio",
+        "nis_high_ratio",
     ];
     /// `windows.csv` of an alignment of a log: the attitude at the end of each window.
     pub const WINDOWS: [&str; 5] = ["t_s", "source", "roll_rad", "pitch_rad", "yaw_rad"];
