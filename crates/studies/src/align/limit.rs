@@ -8,7 +8,7 @@ use schuler_strapdown::align::{Gyrocompass, Limits, Vectors};
 use schuler_strapdown::static_base::Site;
 
 use super::mean;
-use crate::scenario::{AlignStudy, MethodKind, Motion};
+use crate::scenario::{AlignStudy, MethodKind};
 
 /// Time constants after which the gyrocompass has come to rest: e^-10 (1 + 10 + 50) is 0.3 % of the start.
 const SETTLED: f64 = 10.0;
@@ -57,12 +57,15 @@ impl Means {
 }
 
 impl Limit {
-    /// The limit for sensors with the errors `spec` that see `truth` over `dt` (s) in the attitude `c_tb`.
+    /// The limit for sensors with the errors `spec` that see `truth` over `dt` (s) in the attitude `c_tb`, velocity being measured with
+    /// the standard deviation `noise` (m/s); whether the base rocks, and when it is turned (s).
     pub fn new(
         study: &AlignStudy,
-        motion: &Motion,
         (spec, truth, dt): (&Spec, &Truth, f64),
         c_tb: Rot<T, B>,
+        noise: f64,
+        rocks: bool,
+        turn: Option<f64>,
     ) -> Limit {
         let (position, gravity) = (study.start.position, study.mechanization.gravity);
         let parts = spec.components().map(|component| {
@@ -82,12 +85,9 @@ impl Limit {
             position,
             gravity,
             parts: parts.collect(),
-            velocity: study.velocity.noise.powi(2) * study.velocity.every as f64 * dt,
-            rocks: matches!(motion, Motion::Sway(_) | Motion::Coning(_)),
-            turn: match motion {
-                Motion::Positions(poses, _) if poses.len() > 1 => Some(poses[0].dwell),
-                _ => None,
-            },
+            velocity: noise * noise * study.velocity.every as f64 * dt,
+            rocks,
+            turn,
         }
     }
 
@@ -231,7 +231,7 @@ impl Limit {
     /// What a reader must know of the limits, `t` (s) being the time of the alignment.
     pub fn words(&self, t: f64) -> Vec<String> {
         let mut words = vec![format!(
-            "The limit of a method is, to first order, what the sensors' errors leave in one position, phi_N = nabla_E/g, phi_E = -nabla_N/g, phi_D = eps_E/(Ω cos L) - tan L nabla_E/g by their means over the time, and in variance to it the method's own law of white noise after {t} s: that of means (TRIAD), of the vectors laid upon each other (inertial), of the settled loop (gyrocompass, from ten tau on), of the best estimator that knows nothing before (filters); correlated noise and bursts of the velocity, knocks and what is known before are not in it"
+            "The limit of a method is, to first order, what the sensors' errors leave in one position, phi_N = nabla_E/g, phi_E = -nabla_N/g, phi_D = eps_E/(Ω cos L) - tan L nabla_E/g by their means over the time, and in variance to it the method's own law of white noise after {t} s: that of means (TRIAD), of the vectors laid upon each other (inertial), of the settled loop (gyrocompass, from ten tau on), of the best estimator that knows nothing before (filters); correlated noise and bursts of the velocity, knocks, what is known before and what is left of a coarse start are not in it"
         )];
         if self.rocks {
             words.push("For a base that rocks TRIAD and the gyrocompass have no limit here".into());

@@ -6,6 +6,7 @@ mod figures;
 mod fine;
 mod limit;
 mod log;
+mod log_figures;
 mod mean;
 mod method;
 mod observability;
@@ -39,8 +40,8 @@ const GROUP: u64 = 8;
 /// first run, root mean square over all runs, the method's own standard deviation, the limit of the method), `consistency` (mean
 /// NEES and NIS with their bands), `innovations` (of the first run), `observability` (of each state) and `finals` (each run at the end).
 ///
-/// A log is cut into windows that are aligned one by one: `windows` has the attitudes found. Its first window can
-/// be navigated on from.
+/// A log is cut into windows that are aligned one by one: `windows` has the attitudes found, each beside the method's own standard
+/// deviation and its limit. Its first window can be navigated on from, less the sensor errors that the method knows.
 ///
 /// # Errors
 /// The IMU refuses its list of sources, a filter its settings; a log that is not there or is wrong somewhere.
@@ -87,6 +88,12 @@ fn simulated(
     let mut totals = Totals::default();
     groups.into_iter().for_each(|group| totals.merge(group));
 
-    let limit = Limit::new(study, motion, (&imu.spec, &scene.input(0), scene.dt), scene.c_tb(0));
+    let rocks = matches!(motion, Motion::Sway(_) | Motion::Coning(_));
+    let turn = match motion {
+        Motion::Positions(poses, _) if poses.len() > 1 => Some(poses[0].dwell),
+        _ => None,
+    };
+    let sensors = (&imu.spec, &scene.input(0), scene.dt);
+    let limit = Limit::new(study, sensors, scene.c_tb(0), study.velocity.noise, rocks, turn);
     Ok(report::record(scenario, study, &scene, &limit, &first, &totals, end))
 }

@@ -127,7 +127,9 @@ pub fn rocking(settings: &FilterSettings, place: &Place, scene: &Scene, every: u
         share.sqrt() * sigma[state]
     };
     let states = (0..n).map(|k| State { name: names[k].clone(), start: sigma[k], limit: limit(k) }).collect();
-    let unseen = all_words(&space, count, &sigma, &names, INEXACT);
+    // In units of what is left: a coarse attitude is known so little before that its part would be lost beside the biases.
+    let scale: [f64; ROOM] = std::array::from_fn(|k| if k < n { limit(k) } else { 0.0 });
+    let unseen = all_words(&space, count, &scale, &names, INEXACT);
     Some(Observed { rank: varying.len() - count, of: varying.len(), states, unseen, rocks: true })
 }
 

@@ -126,7 +126,8 @@ pub fn record(
         record.tables.push(innovations);
     }
     let observed = observe(study, scene, limit.rocks);
-    record.tables.push(states(&observed, first));
+    let ends: Vec<&[f64]> = first.iter().map(|trace| trace.states.as_slice()).collect();
+    record.tables.push(states(&observed, &ends));
     record.tables.push(finals(&results));
     record.notes = limit.words(scene.time(scene.samples));
     record.notes.extend(notes(&results));
@@ -259,13 +260,13 @@ fn observe(study: &AlignStudy, scene: &Scene, rocks: bool) -> Vec<(String, usize
     filters.collect()
 }
 
-/// States of each filter: standard deviation at the start, at the end, and what [`observability::State::limit`] is.
-fn states(observed: &[(String, usize, Observed)], first: &[Trace]) -> Table {
+/// States of each filter: standard deviation at the start, at the end (of each method, `ends`), and what [`observability::State::limit`] is.
+pub fn states(observed: &[(String, usize, Observed)], ends: &[&[f64]]) -> Table {
     let names = ["source", "state", "start", "end", "limit", "limit_ratio"];
     let mut table = Table::new("observability", &names, &["source", "state"]);
     for (name, i, observed) in observed {
         for (k, state) in observed.states.iter().enumerate() {
-            let end = first[*i].states.get(k).copied().unwrap_or(f64::NAN);
+            let end = ends[*i].get(k).copied().unwrap_or(f64::NAN);
             let numbers = [state.start, end, state.limit, state.limit / state.start];
             let mut row: Vec<Cell> = vec![name.as_str().into(), state.name.as_str().into()];
             row.extend(numbers.map(Cell::from));
@@ -276,7 +277,7 @@ fn states(observed: &[(String, usize, Observed)], first: &[Trace]) -> Table {
 }
 
 /// Rank and unobservable combinations, once for filters that share them.
-fn unobserved(observed: &[(String, usize, Observed)]) -> Vec<String> {
+pub fn unobserved(observed: &[(String, usize, Observed)]) -> Vec<String> {
     let mut said: Vec<(Vec<&str>, String)> = Vec::new();
     for (name, _, observed) in observed {
         let Observed { rank, of, unseen, rocks, .. } = observed;
@@ -287,7 +288,7 @@ fn unobserved(observed: &[(String, usize, Observed)]) -> Vec<String> {
                 format!("observes {rank} of {of} combinations of its states (SI units); never: {list}")
             }
             (false, true) => format!(
-                "observes {rank} of {of} combinations of its states (SI units); of these the rocking tells less than half of the variance, even without noise of the sensors: {list}"
+                "observes {rank} of {of} combinations of its states (SI units) by more than half of their variance; of the others the rocking tells less, even without noise of the sensors: {list}"
             ),
         };
         match said.iter_mut().find(|(_, same)| *same == text) {

@@ -148,14 +148,15 @@ fn navigated(navigator: Option<&Navigator>, truth: &Pva) -> Row {
 }
 
 /// Free inertial navigation from an alignment on, less the sensor errors that the method knows.
-struct Navigator {
+pub struct Navigator {
     level: LocalLevel,
     samples: Samples,
     known: [Vec3<B>; 2],
 }
 
 impl Navigator {
-    fn from(worker: &Result<Worker, String>, place: &Place, truth: &Pva) -> Option<Navigator> {
+    /// From the attitude that a method has found, at the true place and velocity; `None` where it has none.
+    pub fn from(worker: &Result<Worker, String>, place: &Place, truth: &Pva) -> Option<Navigator> {
         let worker = worker.as_ref().ok()?;
         let c_tb = worker.found(place).ok()?.c_tb;
         let start = Pva { c_tb, ..*truth };
@@ -166,12 +167,18 @@ impl Navigator {
         })
     }
 
-    fn advance(&mut self, increments: &Increments, dt: f64) {
+    /// One sample.
+    pub fn advance(&mut self, increments: &Increments, dt: f64) {
         let [gyro, accel] = self.known;
         let freed = Increments { dtheta: increments.dtheta - gyro * dt, dv: increments.dv - accel * dt };
         if let Some(motion) = self.samples.add(&freed) {
             self.level.advance(&motion, dt);
         }
+    }
+
+    /// Where it is by its own account.
+    pub fn pva(&self) -> Pva {
+        self.level.pva()
     }
 }
 
