@@ -105,4 +105,26 @@ impl Gyrocompass {
         let phi_d = (eps_t[1] + omega_d * phi_n) / omega_n - 3.0 * tau * about_down;
         Vec3::new(phi_n, phi_e, phi_d)
     }
+
+    /// Standard deviations of phi (rad) in the settled loop under angle random walk `n` (rad/√s) of each gyro alone:
+    /// `N √(5 tau/4)`, `N √(3 tau/4)` and `N / (Ω cos L) √(3 / (16 tau))`.
+    ///
+    /// White noise through (tau (tau s + 2) / (tau s + 1)²), (tau² s (tau s + 3) / (tau s + 1)³) and
+    /// 1 / (Ω cos L (tau s + 1)³).
+    pub fn angle_walk(&self, n: f64) -> Vec3<T> {
+        let tau = self.gains.tau;
+        let heading = n / Limits::new(self.site).omega_north() * libm::sqrt(3.0 / (16.0 * tau));
+        Vec3::new(n * libm::sqrt(1.25 * tau), n * libm::sqrt(0.75 * tau), heading)
+    }
+
+    /// The same under velocity random walk `q` (m/s/√s) of each accelerometer alone: `q / (2 g √tau)`,
+    /// `q / g √(3 / (4 tau))` and `q / (4 g Ω cos L tau^1.5)`.
+    ///
+    /// White noise through 1 / (g (tau s + 1)²), (3 tau s + 1) / (g (tau s + 1)³) and s / (g Ω cos L (tau s + 1)³).
+    pub fn velocity_walk(&self, q: f64) -> Vec3<T> {
+        let tau = self.gains.tau;
+        let tilt = q / (self.site.g * libm::sqrt(tau));
+        let heading = 0.25 * tilt / (Limits::new(self.site).omega_north() * tau);
+        Vec3::new(0.5 * tilt, tilt * libm::sqrt(0.75), heading)
+    }
 }

@@ -47,7 +47,7 @@ pub enum InertialError {
     },
     /// Gravity did not turn in inertial space: at a pole, or without gravity.
     #[error(
-        "alignment in inertial space needs gravity to turn with the Earth, but the sine between its vectors is {sine}"
+        "alignment in inertial space needs gravity to turn with the Earth, but the sine between its vectors is {sine:.2e}"
     )]
     NoHeading {
         /// Sine of the angle between the two vectors.

@@ -2,6 +2,7 @@
 
 use schuler_frames::{T, Vec3};
 
+use super::Solution;
 use crate::static_base::Site;
 
 /// The analytic limits of alignment at rest at a place.
@@ -100,5 +101,49 @@ impl Limits {
     /// Heading (rad) of TRIAD from means over `t` (s) under angle random walk `n` (rad/√s): `N / (Ω c √t)`.
     pub fn heading_triad(&self, n: f64, t: f64) -> f64 {
         n / (self.omega_north() * libm::sqrt(t))
+    }
+
+    /// phi (rad) of alignment in inertial space by `solution` at the end, with its first vector at `t`/2, under angle
+    /// random walk `n` (rad/√s) of each gyro alone, for `t` (s) well below a radian of the Earth's turn.
+    ///
+    /// A gyro that has drifted by a(s) turns the specific force, so that the velocity across gravity is off by
+    /// `-g ∫ a`, in which the forms see the tilt as the part that goes with t and Ω c phi_D as the part that goes with t²/2:
+    ///
+    /// ```text
+    ///            phi_N and phi_E over N √t      phi_D over N / (Ω c √t)
+    /// velocity   √(1/3)    √(1/6)               √(4/3)
+    /// position   √(8/15)   √(13/30)             √(3/2)
+    /// optimal    √(17/35)  √(752/2835)          √(760/567)
+    /// ```
+    pub fn inertial_angle_walk(&self, solution: Solution, n: f64, t: f64) -> Vec3<T> {
+        let [north, east, down] = match solution {
+            Solution::Velocity => [1.0 / 3.0, 1.0 / 6.0, 4.0 / 3.0],
+            Solution::Position => [8.0 / 15.0, 13.0 / 30.0, 1.5],
+            Solution::Optimal => [17.0 / 35.0, 752.0 / 2835.0, 760.0 / 567.0],
+        }
+        .map(libm::sqrt);
+        let tilt = n * libm::sqrt(t);
+        Vec3::new(north * tilt, east * tilt, down * self.heading_triad(n, t))
+    }
+
+    /// The same under velocity random walk `q` (m/s/√s) of each accelerometer alone:
+    ///
+    /// ```text
+    ///            phi_N and phi_E over q / (g √t)      phi_D over q / (g Ω c t^1.5)
+    /// velocity   1        √5                          4
+    /// position   √(4/3)   √(28/3)                     √24
+    /// optimal    √(6/5)   √(192/35)                   √(320/21)
+    /// ```
+    ///
+    /// The best would be 1, 2 and √12.
+    pub fn inertial_velocity_walk(&self, solution: Solution, q: f64, t: f64) -> Vec3<T> {
+        let [north, east, down] = match solution {
+            Solution::Velocity => [1.0, 5.0, 16.0],
+            Solution::Position => [4.0 / 3.0, 28.0 / 3.0, 24.0],
+            Solution::Optimal => [1.2, 192.0 / 35.0, 320.0 / 21.0],
+        }
+        .map(libm::sqrt);
+        let tilt = q / (self.site.g * libm::sqrt(t));
+        Vec3::new(north * tilt, east * tilt, down * tilt / (self.omega_north() * t))
     }
 }

@@ -23,7 +23,9 @@ pub enum TriadError {
         lat: f64,
     },
     /// The measured angular rate is zero, or along the specific force: it tells nothing about north.
-    #[error("alignment needs an angular rate across the specific force, but the sine between them is {sine}")]
+    #[error(
+        "alignment needs an angular rate across the specific force, but the sine between them is {sine:.2e}"
+    )]
     NoHeading {
         /// Sine of the angle between the measured vectors.
         sine: f64,

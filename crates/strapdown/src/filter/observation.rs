@@ -140,7 +140,7 @@ impl Observation {
     }
 
     /// The rows in the states of `model`.
-    pub(crate) fn rows<const N: usize>(&self, model: &Model<N>, now: &Now) -> [Row<N>; 3] {
+    pub fn rows<const N: usize>(&self, model: &Model<N>, now: &Now) -> [Row<N>; 3] {
         let to_phi = match model.form() {
             Form::Phi => None,
             Form::Psi => Some(Form::Psi.to_phi(&now.pva)),

@@ -5,4 +5,5 @@ mod base;
 mod gyrocompass;
 mod inertial;
 mod laws;
+mod noise;
 mod triad;

@@ -2,32 +2,21 @@
 
 use schuler_frames::{T, Vec3};
 
-use super::limit::Limit;
+use super::ends::ends;
+use super::report::{Results, band};
 use super::run::Trace;
-use super::scene::Scene;
-use super::statistics::Totals;
 use crate::figure::{Axis, Colour, Figure, Panel, Quantity, Series, Style};
-use crate::scenario::{AlignStudy, MethodKind};
-
-/// Points of an ellipse.
-const ELLIPSE: usize = 90;
-
-/// Radius of the ellipse that holds 95 % of a plane normal distribution, in standard deviations: √(-2 ln 0.05).
-const IN_95: f64 = 2.447_746_830_680_816;
+use crate::scenario::MethodKind;
 
 /// Axes of phi.
 const AXES: [&str; 3] = ["φ north", "φ east", "φ down"];
 
-/// Each method over time, all methods beside the laws, and where the runs end.
-pub fn figures(
-    title: &str,
-    study: &AlignStudy,
-    scene: &Scene,
-    limit: &Limit,
-    first: &[Trace],
-    totals: &Totals,
-    end: usize,
-) -> Vec<(String, Figure)> {
+/// Rows that make a course over time: one or two are points in a table.
+const COURSE: usize = 3;
+
+/// Each method over time, all methods and the best estimator's laws, innovations, and where the runs end.
+pub fn figures(title: &str, results: &Results) -> Vec<(String, Figure)> {
+    let Results { study, scene, end, .. } = *results;
     let conditions = format!(
         "latitude {:.4}°, {:.0} Hz, {} {}",
         scene.position.lat.to_degrees(),
@@ -35,68 +24,186 @@ pub fn figures(
         study.runs,
         if study.runs == 1 { "run" } else { "runs" }
     );
-    let mut figures = vec![("heading".into(), laws(title, &conditions, study, scene, limit, totals, end))];
-    for (i, method) in study.methods.iter().enumerate() {
-        let stem: String = method.name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
-        figures.push((stem, over_time(&method.name, &conditions, scene, limit, &first[i], end)));
+    let mut figures = Vec::new();
+    if end + 1 >= COURSE {
+        if results.withheld.heading.contains(&false) {
+            figures.push(("heading".into(), heading(title, &conditions, results)));
+        }
+        for (i, method) in study.methods.iter().enumerate() {
+            let stem: String =
+                method.name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
+            figures.push((stem, over_time(&conditions, results, i)));
+        }
+        if let Some(filter) = study.methods.iter().position(|m| matches!(m.kind, MethodKind::Filter(_))) {
+            figures.push(("laws".into(), laws(title, &conditions, results, filter)));
+            figures.push(("innovations".into(), innovations(title, &conditions, results, filter)));
+        }
     }
     if study.navigate > 0 {
-        figures.push(("drift".into(), drift(title, &conditions, study, scene, first, end)));
+        figures.push(("drift".into(), drift(title, &conditions, results)));
     }
     if study.runs > 2 {
-        figures.push(("ends".into(), ends(title, &conditions, study, totals)));
+        figures.extend(ends(title, &conditions, results).map(|figure| ("ends".into(), figure)));
     }
     figures
 }
 
-/// Root mean square heading error of each method, its own standard deviation, and the limit.
-fn laws(
-    title: &str,
-    conditions: &str,
-    study: &AlignStudy,
-    scene: &Scene,
-    limit: &Limit,
-    totals: &Totals,
-    end: usize,
-) -> Figure {
-    let per_si = Quantity::Angle.shown(1e-3);
-    let mut panel = Panel::new(Axis::log(format!("heading ({})", per_si.symbol)));
-    let rows = &scene.rows[..=end];
-    for (i, method) in study.methods.iter().enumerate() {
-        let colour = Colour::palette(i);
-        let curve = |value: &dyn Fn(usize) -> f64| -> Vec<[f64; 2]> {
-            rows.iter().enumerate().map(|(j, &k)| [scene.time(k), value(j) * per_si.per_si]).collect()
-        };
-        let rms = |j: usize| totals.sums[i][j].rms()[8];
-        panel = panel.with(Series::line(&method.name, curve(&rms)).colour(colour));
-        if matches!(method.kind, MethodKind::Filter(_) | MethodKind::AnyHeading(_)) {
-            let sigma = |j: usize| totals.sums[i][j].sigma()[2];
-            panel = panel.with(Series::line("", curve(&sigma)).style(Style::Dashed).colour(colour));
+/// Lines across a panel from `low` to `high` at the knock and at the first turn.
+fn marked(mut panel: Panel, results: &Results, [low, high]: [f64; 2]) -> Panel {
+    let end = results.scene.time(results.scene.samples);
+    let turn = results.limit.turn.filter(|turn| *turn < end);
+    for (label, at, colour) in
+        [("knock", results.scene.knock(), Colour::palette(1)), ("turn", turn, Colour::palette(2))]
+    {
+        if let Some(t) = at {
+            let line = Series::line(label, [[t, low], [t, high]]).style(Style::DashDot).colour(colour);
+            panel = panel.with(line);
         }
     }
-    let law = rows.iter().map(|&k| [scene.time(k), limit.total(scene.time(k))[2] * per_si.per_si]);
-    panel = panel.with(Series::line("analytic limit", law).style(Style::Dotted).colour(Colour::GREY));
+    panel
+}
+
+/// Smallest and largest positive number of all curves.
+fn ends_of(curves: &[Vec<[f64; 2]>]) -> [f64; 2] {
+    let positive = curves.iter().flatten().map(|p| p[1]).filter(|y| *y > 0.0 && y.is_finite());
+    positive.fold([f64::INFINITY, 0.0], |[low, high], y| [low.min(y), high.max(y)])
+}
+
+/// Root mean square heading error of each method, its own standard deviation, and its limit.
+fn heading(title: &str, conditions: &str, results: &Results) -> Figure {
+    let Results { study, scene, end, .. } = *results;
+    let per_si = Quantity::Angle.shown(1e-3);
+    let mut panel = Panel::new(Axis::log(format!("heading ({})", per_si.symbol)));
+    let mut curves = Vec::new();
+    for (i, method) in study.methods.iter().enumerate().filter(|(i, _)| !results.withheld.heading[*i]) {
+        let curve = |value: &dyn Fn(usize) -> f64| -> Vec<[f64; 2]> {
+            let rows = scene.rows[..=end].iter().enumerate();
+            rows.map(|(j, &k)| [scene.time(k), value(j) * per_si.per_si]).collect()
+        };
+        let rms = curve(&|j| results.totals.sums[i][j].rms()[8]);
+        let sigma = curve(&|j| results.sigma(i, j)[2]);
+        let limit = curve(&|j| results.limits[i][j][2]);
+        for (label, line, style) in
+            [(method.name.as_str(), rms, Style::Line), ("", sigma, Style::Dashed), ("", limit, Style::Dotted)]
+        {
+            // No line where there is nothing, and none at zero on a logarithmic axis.
+            if line.iter().any(|p| p[1] > 0.0) {
+                curves.push(line.clone());
+                panel = panel.with(Series::line(label, line).style(style).colour(Colour::palette(i)));
+            }
+        }
+    }
+    let panel = marked(panel, results, ends_of(&curves));
     Figure::new(format!("{title}: heading"), Axis::time("time"))
-        .subtitle(format!("{conditions}; rms of the runs, dashed the filter's own σ"))
+        .subtitle(format!("{conditions}; rms of the runs, dashed the method's own σ, dotted its limit"))
         .panel(panel)
 }
 
-/// The first run of one method with three of its own standard deviations and the limit.
-fn over_time(
-    name: &str,
-    conditions: &str,
-    scene: &Scene,
-    limit: &Limit,
-    trace: &Trace,
-    end: usize,
-) -> Figure {
+/// One filter against the laws one by one: tilts and heading.
+fn laws(title: &str, conditions: &str, results: &Results, filter: usize) -> Figure {
+    let Results { study, scene, limit, end, .. } = *results;
+    let method = &study.methods[filter];
+    let measured = matches!(&method.kind, MethodKind::Filter(settings) if !settings.position);
+    let name = &method.name;
+    let mut figure = Figure::new(format!("{title}: {name} against the laws"), Axis::time("time")).subtitle(
+        format!("{conditions}; laws of the best estimator that knows nothing before, each noise alone"),
+    );
+    for (axis, label) in
+        AXES.iter().enumerate().filter(|(axis, _)| *axis < 2 || !results.withheld.heading[filter])
+    {
+        let rms = |j: usize| results.totals.sums[filter][j].rms()[6 + axis];
+        let shown = Quantity::Angle.shown(rms(end));
+        let curve = |value: &dyn Fn(usize, f64) -> f64| -> Vec<[f64; 2]> {
+            let rows = scene.rows[..=end].iter().enumerate();
+            rows.map(|(j, &k)| [scene.time(k), value(j, scene.time(k)) * shown.per_si]).collect()
+        };
+        let before = |t: f64, law: f64| if limit.turned(t) { f64::NAN } else { law };
+        let law = |k: usize| curve(&|_, t| before(t, limit.separate(t, measured)[axis][k]));
+        let stays = |t: f64| limit.left(&method.kind, &limit.means(t, |_| true))[axis];
+        let lines = [
+            ("rms of the runs", curve(&|j, _| rms(j)), Style::Line, Colour::palette(0)),
+            ("own σ", curve(&|j, _| results.sigma(filter, j)[axis]), Style::Dashed, Colour::palette(0)),
+            ("bias limit", curve(&|_, t| before(t, stays(t))), Style::Dotted, Colour::BLACK),
+            ("angle random walk", law(0), Style::Dotted, Colour::palette(1)),
+            ("velocity random walk", law(1), Style::Dotted, Colour::palette(2)),
+            ("velocity noise", law(2), Style::Dotted, Colour::palette(3)),
+        ];
+        // What is far below the result is cut off.
+        let [low, high] = ends_of(&[lines[0].1.clone(), lines[1].1.clone()]);
+        let (low, high) = (0.03 * low, 1.5 * high);
+        let mut panel = Panel::new(Axis::log(format!("{label} ({})", shown.symbol)));
+        if low.is_finite() && low > 0.0 {
+            panel.y = panel.y.from_to(low, high);
+        }
+        for (label, line, style, colour) in lines {
+            if line.iter().any(|p| p[1] > 0.0) {
+                panel = panel.with(Series::line(label, line).style(style).colour(colour));
+            }
+        }
+        figure = figure.panel(marked(panel, results, [low, high]));
+    }
+    figure
+}
+
+/// Innovations of the first run of one filter, and the mean NIS of all filters over the runs.
+fn innovations(title: &str, conditions: &str, results: &Results, filter: usize) -> Figure {
+    let Results { study, scene, first, totals, end, .. } = *results;
+    let position = matches!(&study.methods[filter].kind, MethodKind::Filter(settings) if settings.position);
+    let unit = if position { "m" } else { "m/s" };
+    let name = &study.methods[filter].name;
+    let mut figure = Figure::new(format!("{title}: innovations"), Axis::time("time"))
+        .subtitle(format!("{conditions}; above: the first run of `{name}`; below: mean of the runs over the updates between rows"));
+    for (axis, label) in ["north", "east"].iter().enumerate() {
+        let rows = || scene.rows[..=end].iter().zip(&first[filter].rows);
+        let band = rows().map(|(&k, row)| {
+            let three = 3.0 * row.innovation[1][axis];
+            [scene.time(k), -three, three]
+        });
+        let curve = rows().map(|(&k, row)| [scene.time(k), row.innovation[0][axis]]);
+        let largest = |part: usize| {
+            let sizes = rows().map(|(_, row)| row.innovation[part][axis].abs());
+            sizes.filter(|x| x.is_finite()).fold(0.0, f64::max)
+        };
+        let half = 1.1 * largest(0).max(3.0 * largest(1));
+        let panel = Panel::new(Axis::linear(format!("{label} ({unit})")))
+            .with(Series::band("±3 σ predicted", band).colour(Colour::palette(5)))
+            .with(Series::line("innovation", curve).colour(Colour::palette(0)));
+        figure = figure.panel(marked(panel, results, [-half, half]));
+    }
+    let mut panel = Panel::new(Axis::linear("NIS a degree of freedom"));
+    let (mut widest, mut largest) = (Vec::new(), 0f64);
+    for (i, method) in
+        study.methods.iter().enumerate().filter(|(_, m)| matches!(m.kind, MethodKind::Filter(_)))
+    {
+        let rows = &totals.sums[i];
+        let of = |j: usize| rows[j].nis_since(j.checked_sub(1).map(|before| &rows[before]));
+        let times = || scene.rows[..=end].iter().enumerate().map(|(j, &k)| (j, scene.time(k)));
+        widest = times()
+            .map(|(j, t)| {
+                let [low, high] = band(of(j).1);
+                [t, low, high]
+            })
+            .collect();
+        let line: Vec<[f64; 2]> = times().map(|(j, t)| [t, of(j).0]).collect();
+        largest = line.iter().map(|p| p[1]).filter(|y| y.is_finite()).fold(largest, f64::max);
+        panel = panel.with(Series::line(&method.name, line).colour(Colour::palette(i)));
+    }
+    panel = panel.with(Series::band("99 % band", widest).colour(Colour::GREY));
+    figure.panel(marked(panel, results, [0.0, largest]))
+}
+
+/// The first run of one method with three of its own standard deviations and its limit.
+fn over_time(conditions: &str, results: &Results, method: usize) -> Figure {
+    let Results { study, scene, first, end, .. } = *results;
+    let (name, trace, limits) = (&study.methods[method].name, &first[method], &results.limits[method]);
     let mut figure = Figure::new(name, Axis::time("time")).subtitle(format!("{conditions}; the first run"));
-    for (axis, label) in AXES.iter().enumerate() {
+    let axes = if results.withheld.heading[method] { &AXES[..2] } else { &AXES[..] };
+    for (axis, label) in axes.iter().enumerate() {
         let rows = || scene.rows[..=end].iter().zip(&trace.rows);
         // The size of the second half: at the beginning anything is.
         let half = rows().skip(end / 2).map(|(_, row)| row.error.phi[axis].abs());
-        let largest =
-            half.filter(|x| x.is_finite()).fold(limit.total(scene.time(scene.samples))[axis], f64::max);
+        let sizes = half.chain(limits[end / 2..].iter().map(|limit| limit[axis]));
+        let largest = sizes.filter(|x| x.is_finite()).fold(0.0, f64::max);
         let shown = Quantity::Angle.shown(largest);
         let window = 5.0 * largest * shown.per_si;
         let mut panel =
@@ -109,29 +216,24 @@ fn over_time(
             panel = panel.with(Series::band("±3 σ of the method", band).colour(Colour::palette(5)));
         }
         let law = |sign: f64| {
-            scene.rows[..=end]
-                .iter()
-                .map(move |&k| [scene.time(k), sign * limit.total(scene.time(k))[axis] * shown.per_si])
+            let rows = scene.rows[..=end].iter().zip(limits);
+            rows.map(move |(&k, limit)| [scene.time(k), sign * limit[axis] * shown.per_si])
         };
         let curve = rows().map(|(&k, row)| [scene.time(k), row.error.phi[axis] * shown.per_si]);
-        panel = panel
-            .with(Series::line("error", curve).colour(Colour::palette(0)))
-            .with(Series::line("± analytic limit", law(1.0)).style(Style::Dotted).colour(Colour::GREY))
-            .with(Series::line("", law(-1.0)).style(Style::Dotted).colour(Colour::GREY));
-        figure = figure.panel(panel);
+        panel = panel.with(Series::line("error", curve).colour(Colour::palette(0)));
+        if limits.iter().any(|limit| limit[axis].is_finite()) {
+            panel = panel
+                .with(Series::line("± limit", law(1.0)).style(Style::Dotted).colour(Colour::GREY))
+                .with(Series::line("", law(-1.0)).style(Style::Dotted).colour(Colour::GREY));
+        }
+        figure = figure.panel(marked(panel, results, [-window, window]));
     }
     figure
 }
 
 /// Where navigation leads that begins with what each method has found; the first run.
-fn drift(
-    title: &str,
-    conditions: &str,
-    study: &AlignStudy,
-    scene: &Scene,
-    first: &[Trace],
-    end: usize,
-) -> Figure {
+fn drift(title: &str, conditions: &str, results: &Results) -> Figure {
+    let Results { study, scene, first, end, .. } = *results;
     let mut figure = Figure::new(format!("{title}: position afterwards"), Axis::time("time"))
         .subtitle(format!("{conditions}; free inertial, the first run"));
     let rows = |trace: &'_ Trace| -> Vec<(f64, Vec3<T>)> {
@@ -149,50 +251,4 @@ fn drift(
         figure = figure.panel(panel);
     }
     figure
-}
-
-/// Tilt about north and heading of all runs at the end, with the ellipse that holds 95 % of each method.
-fn ends(title: &str, conditions: &str, study: &AlignStudy, totals: &Totals) -> Figure {
-    let size = |axis: usize| {
-        let all = totals.finals.iter().flatten().map(|phi| phi[axis].abs()).filter(|x| x.is_finite());
-        Quantity::Angle.shown(all.fold(0.0, f64::max))
-    };
-    let (x, y) = (size(0), size(2));
-    let mut panel = Panel::new(Axis::linear(format!("φ down ({})", y.symbol)));
-    for (i, (method, finals)) in study.methods.iter().zip(&totals.finals).enumerate() {
-        let points: Vec<[f64; 2]> = finals
-            .iter()
-            .filter(|phi| phi.iter().all(|p| p.is_finite()))
-            .map(|phi| [phi[0] * x.per_si, phi[2] * y.per_si])
-            .collect();
-        let colour = Colour::palette(i);
-        panel = panel
-            .with(Series::line("", ellipse(&points)).colour(colour))
-            .with(Series::line(&method.name, points).style(Style::Points).colour(colour));
-    }
-    Figure::new(format!("{title}: end of each run"), Axis::linear(format!("φ north ({})", x.symbol)))
-        .subtitle(format!("{conditions}; ellipses hold 95 % of a normal distribution"))
-        .panel(panel)
-}
-
-/// The ellipse of mean and covariance of `points`.
-fn ellipse(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let n = points.len() as f64;
-    if points.len() < 3 {
-        return Vec::new();
-    }
-    let mean = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / n);
-    let product = |a: usize, b: usize| {
-        points.iter().map(|p| (p[a] - mean[a]) * (p[b] - mean[b])).sum::<f64>() / (n - 1.0)
-    };
-    // Factor of Cholesky takes the circle to the ellipse.
-    let l00 = product(0, 0).sqrt();
-    let l10 = if l00 > 0.0 { product(0, 1) / l00 } else { 0.0 };
-    let l11 = (product(1, 1) - l10 * l10).max(0.0).sqrt();
-    (0..=ELLIPSE)
-        .map(|k| {
-            let (s, c) = (std::f64::consts::TAU * k as f64 / ELLIPSE as f64).sin_cos();
-            [mean[0] + IN_95 * l00 * c, mean[1] + IN_95 * (l10 * c + l11 * s)]
-        })
-        .collect()
 }

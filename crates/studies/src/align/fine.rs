@@ -4,8 +4,8 @@ use schuler_frames::{B, Rot, T, Vec3};
 use schuler_imu::process::LinearModel;
 use schuler_imu::{Instrument, Truth};
 use schuler_strapdown::filter::{
-    Accumulator, Filter, Measurement, Model, NavState, NavStates, Now, Observation, Position, Velocity,
-    measurement::HORIZONTAL,
+    Accumulator, Filter, Measurement, Model, NavState, NavStates, Now, Observation, Outcome, Position,
+    Velocity, measurement::HORIZONTAL,
 };
 use schuler_strapdown::{ErrorDynamics, Increments, LocalLevel, Mechanization, Pva, Samples};
 
@@ -28,6 +28,7 @@ pub struct Fine {
     coloured: Option<[usize; 2]>,
     adaptation: Adaptation<ROOM>,
     running: Option<Running>,
+    last: Option<Outcome>,
 }
 
 /// What there is once the coarse attitude is.
@@ -56,7 +57,8 @@ impl Fine {
         let sigma = [position, position, 0.0, velocity, velocity, 0.0, tilt, tilt, heading];
         let filter = Filter::new(model, &sigma).map_err(|e| e.to_string())?;
         let adaptation = Adaptation::new(settings.strategy.kind);
-        let mut fine = Fine { coloured, filter, settings: settings.clone(), adaptation, running: None };
+        let mut fine =
+            Fine { coloured, filter, settings: settings.clone(), adaptation, running: None, last: None };
         let states = fine.states();
         match (settings.strategy.cap, settings.bound, &mut fine.filter.cap) {
             (false, _, cap) => *cap = None,
@@ -106,7 +108,7 @@ impl Fine {
         let now = Now { pva, seen: run.seen.0, dt: run.seen.1 };
         let observation = observation(&self.settings, self.coloured, &run.place, velocity, &now)?;
         let cycle = self.filter.cycle(&mut self.adaptation, &step, &observation, &now);
-        cycle.map_err(|e| e.to_string())?;
+        self.last = Some(cycle.map_err(|e| e.to_string())?);
         let mut pva = self.filter.feedback(&pva);
         if !self.settings.position {
             // Without states for it the position would go its way.
@@ -122,6 +124,11 @@ impl Fine {
         observation(&self.settings, self.coloured, place, velocity, now)
     }
 
+    /// What the last update did.
+    pub fn last(&self) -> Option<&Outcome> {
+        self.last.as_ref()
+    }
+
     /// The filter.
     pub fn filter(&self) -> &Filter<ROOM> {
         &self.filter
@@ -131,6 +138,12 @@ impl Fine {
         let run = self.running.as_ref().ok_or("the coarse attitude is not there yet")?;
         let sigma = self.states().map(|k| self.filter.sigma(k));
         Ok(Found { c_tb: run.navigator.pva().c_tb, sigma: Some(sigma) })
+    }
+
+    /// Covariance of phi north and down, rad².
+    pub fn cross(&self) -> f64 {
+        let [north, _, down] = self.states();
+        self.filter.p[(north, down)]
     }
 
     pub fn sensor_errors(&self) -> [[f64; 3]; 2] {

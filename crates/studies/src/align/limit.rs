@@ -1,132 +1,251 @@
-//! The analytic limit of a scenario: what constant errors leave and what noise allows.
+//! The analytic limit of each method: what the sensors' errors leave and what noise allows.
 
 use nalgebra::Matrix3;
-use schuler_frames::{B, Rot, T, Vec3};
+use schuler_frames::{B, Geodetic, Gravity, Rot, T, Vec3};
+use schuler_imu::process::LinearModel;
 use schuler_imu::{Input, Instrument, Spec, Truth};
-use schuler_strapdown::align::Limits;
+use schuler_strapdown::align::{Gyrocompass, Limits, Vectors};
+use schuler_strapdown::static_base::Site;
 
-/// Heading error beyond which the laws for small angles, and heading itself, mean nothing, rad (30 deg).
-const LARGE: f64 = 0.5;
+use super::mean;
+use crate::scenario::{AlignStudy, MethodKind};
 
-/// True errors of the sensors as the laws of alignment take them, resolved in t at the attitude of the start.
-#[derive(Clone, Copy, Debug)]
+/// Time constants after which the gyrocompass has come to rest: e^-10 (1 + 10 + 50) is 0.3 % of the start.
+const SETTLED: f64 = 10.0;
+
+/// True errors of the sensors as the laws of alignment take them, resolved in t at the attitude of the start, and what the base
+/// does.
 pub struct Limit {
-    laws: Limits,
-    /// Mean and covariance of the errors that stay, gyro (rad/s) and accelerometer (m/s²).
+    pub laws: Limits,
+    position: Geodetic,
+    gravity: Gravity,
+    parts: Vec<Part>,
+    /// Density of the noise of the measured velocity, m²/s.
+    pub velocity: f64,
+    /// Whether it rocks.
+    pub rocks: bool,
+    /// When the base is first turned from one position to another, s.
+    pub turn: Option<f64>,
+}
+
+/// One coefficient of an error source.
+pub struct Part {
+    pub source: String,
+    instrument: Instrument,
+    column: Vec3<T>,
+    model: LinearModel,
+    /// Keeps its value.
+    constant: bool,
+}
+
+/// Errors of gyro (rad/s) and accelerometer (m/s²) as means over a time: mean and covariance.
+#[derive(Clone, Copy, Debug)]
+pub struct Means {
     mean: [Vec3<T>; 2],
     spread: [Matrix3<f64>; 2],
-    /// Densities of white noise: (rad/s)² s and (m/s²)² s.
-    white: [Matrix3<f64>; 2],
-    /// Density of the noise of the measured velocity, m²/s.
-    velocity: f64,
-    /// Whether the base keeps its attitude: turned, its biases are told apart from it.
-    one_position: bool,
+}
+
+impl Means {
+    const NONE: Means =
+        Means { mean: [Vec3::ZERO; 2], spread: [Matrix3::new(0., 0., 0., 0., 0., 0., 0., 0., 0.); 2] };
+
+    fn add(&mut self, part: &Part, [mean, variance]: [f64; 2]) {
+        let (i, column) = (part.instrument as usize, part.column.as_nalgebra());
+        self.mean[i] += part.column * mean;
+        self.spread[i] += column * column.transpose() * variance;
+    }
 }
 
 impl Limit {
-    /// The limit for sensors with the errors `spec` that see `truth` over `dt` (s) in the attitude `c_tb`.
+    /// The limit for sensors with the errors `spec` that see `truth` over `dt` (s) in the attitude `c_tb`, velocity being measured with
+    /// the standard deviation `noise` (m/s); whether the base rocks, and when it is turned (s).
     pub fn new(
-        laws: Limits,
-        spec: &Spec,
-        truth: &Truth,
-        dt: f64,
+        study: &AlignStudy,
+        (spec, truth, dt): (&Spec, &Truth, f64),
         c_tb: Rot<T, B>,
-        velocity: f64,
-        one_position: bool,
+        noise: f64,
+        rocks: bool,
+        turn: Option<f64>,
     ) -> Limit {
-        let mut mean = [Vec3::<B>::ZERO; 2];
-        let mut spread = [Matrix3::zeros(); 2];
-        let mut white = [Matrix3::zeros(); 2];
-        for component in spec.components() {
+        let (position, gravity) = (study.start.position, study.mechanization.gravity);
+        let parts = spec.components().map(|component| {
             let instrument = component.instrument();
             let input = Input::new(instrument, truth, dt, spec.calibration_temperature);
             let column = component.term().regressor(&input).columns()[component.coefficient()];
-            let column = Vec3::<B>::claim(column);
-            let model = component.evolution().linear_model();
-            let i = instrument as usize;
-            let (mut value, mut variance) = (0.0, 0.0);
-            for a in 0..model.n {
-                value += model.c[a] * model.x0[a];
-                for b in 0..model.n {
-                    variance += model.c[a] * model.p0[a][b] * model.c[b];
-                }
+            Part {
+                source: component.source().name().to_string(),
+                instrument,
+                column: c_tb * Vec3::<B>::claim(column),
+                model: component.evolution().linear_model(),
+                constant: component.evolution().is_constant(),
             }
-            let square = column.as_nalgebra() * column.as_nalgebra().transpose();
-            mean[i] += column * value;
-            spread[i] += square * variance;
-            white[i] += square * model.white;
-        }
-        let c = c_tb.as_dcm().as_nalgebra();
-        Limit {
-            laws,
-            mean: mean.map(|m| c_tb * m),
-            spread: spread.map(|m| c * m * c.transpose()),
-            white: white.map(|m| c * m * c.transpose()),
-            velocity,
-            one_position,
-        }
-    }
-
-    /// Root mean square of the bias limit, rad: what no alignment in one position gets rid of.
-    pub fn bias(&self) -> [f64; 3] {
-        let [gyro, accel] = [Instrument::Gyro as usize, Instrument::Accel as usize];
-        let mean = self.laws.bias(self.mean[gyro], self.mean[accel]).as_array();
-        // The bias limit is linear in the six errors: its columns, one error at a time.
-        let unit = |k: usize| Vec3::<T>::claim(std::array::from_fn(|i| if i == k { 1.0 } else { 0.0 }));
-        let columns: [Vec3<T>; 6] = std::array::from_fn(|k| match k {
-            0..3 => self.laws.bias(unit(k), Vec3::ZERO),
-            _ => self.laws.bias(Vec3::ZERO, unit(k - 3)),
         });
-        std::array::from_fn(|axis| {
-            let mut variance = mean[axis] * mean[axis];
-            for (part, spread) in [(0, &self.spread[gyro]), (3, &self.spread[accel])] {
-                for i in 0..3 {
-                    for j in 0..3 {
-                        variance += columns[part + i][axis] * spread[(i, j)] * columns[part + j][axis];
-                    }
-                }
-            }
-            variance.sqrt()
-        })
-    }
-
-    /// Standard deviations of phi (rad) after `t` (s) by the laws of noise.
-    pub fn noise(&self, t: f64) -> [f64; 3] {
-        let laws = &self.laws;
-        let density = |i: Instrument, axis: usize| self.white[i as usize][(axis, axis)].sqrt();
-        let [north, _] = laws.tilt_velocity_walk(density(Instrument::Accel, 1), t);
-        let [_, east] = laws.tilt_velocity_walk(density(Instrument::Accel, 0), t);
-        let [north_v, east_v] = laws.tilt_velocity_noise(self.velocity, t);
-        let heading = laws
-            .heading_angle_walk(density(Instrument::Gyro, 1), t)
-            .hypot(laws.heading_velocity_walk(density(Instrument::Accel, 0), t))
-            .hypot(laws.heading_velocity_noise(self.velocity, t));
-        [north.hypot(north_v), east.hypot(east_v), heading]
-    }
-
-    /// Both together, rad; of a base that is turned the noise alone.
-    pub fn total(&self, t: f64) -> [f64; 3] {
-        let (bias, noise) = (self.bias(), self.noise(t));
-        if self.one_position { std::array::from_fn(|k| bias[k].hypot(noise[k])) } else { noise }
-    }
-
-    /// Why heading cannot be had after `t` (s), if it cannot.
-    pub fn no_heading(&self, t: f64) -> Option<String> {
-        let omega = self.laws.omega_north().abs();
-        let per_hour = |x: f64| x.to_degrees() * 3600.0;
-        if omega < 1e-6 * self.laws.site.omega_ie {
-            return Some("Heading cannot be had: at a pole the Earth rate has no horizontal part".into());
+        Limit {
+            laws: Limits::new(Site::new(position, gravity)),
+            position,
+            gravity,
+            parts: parts.collect(),
+            velocity: noise * noise * study.velocity.every as f64 * dt,
+            rocks,
+            turn,
         }
-        let (bias, noise) = (self.bias()[2], self.noise(t)[2]);
-        let whole = if self.one_position { bias.hypot(noise) } else { noise };
-        (whole > LARGE).then(|| {
-            format!(
-                "Heading cannot be had: the gyro and accelerometer errors are worth {:.3} deg/h of the horizontal Earth rate of {:.3} deg/h ({:.3} deg/h by what stays, {:.3} deg/h by noise over {t} s)",
-                per_hour(whole * omega),
-                per_hour(omega),
-                per_hour(bias * omega),
-                per_hour(noise * omega)
-            )
-        })
     }
+
+    /// The coefficients of the sources.
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// Whether the base is turned before `t` (s).
+    pub fn turned(&self, t: f64) -> bool {
+        self.turn.is_some_and(|turn| t > turn)
+    }
+
+    /// Errors as means over `t` (s), all but white noise; once the base is turned also without what keeps its value.
+    pub fn means(&self, t: f64, wanted: impl Fn(&Part) -> bool) -> Means {
+        let turned = self.turned(t);
+        let mut means = Means::NONE;
+        for part in self.parts.iter().filter(|part| wanted(part) && !(turned && part.constant)) {
+            means.add(part, mean::of_process(&part.model, t));
+        }
+        means
+    }
+
+    /// White noise as means over `t` (s).
+    pub fn white_means(&self, t: f64, wanted: impl Fn(&Part) -> bool) -> Means {
+        let mut means = Means::NONE;
+        for part in self.parts.iter().filter(|part| wanted(part)) {
+            means.add(part, [0.0, part.model.white / t]);
+        }
+        means
+    }
+
+    /// Root mean square of phi (rad) that `means` leave in a method of this kind.
+    pub fn left(&self, kind: &MethodKind, means: &Means) -> [f64; 3] {
+        let square = self.left_squares(kind, means);
+        std::array::from_fn(|axis| square[(axis, axis)].sqrt())
+    }
+
+    /// Means of the products of the three (rad²).
+    fn left_squares(&self, kind: &MethodKind, means: &Means) -> Matrix3<f64> {
+        let value = self.linear(kind, means.mean).as_nalgebra();
+        // Linear in the six errors: the columns, one error at a time.
+        let unit = |k: usize| Vec3::<T>::claim(std::array::from_fn(|i| if i == k { 1.0 } else { 0.0 }));
+        let of_gyro = |k: usize| self.linear(kind, [unit(k), Vec3::ZERO]).as_nalgebra();
+        let of_accel = |k: usize| self.linear(kind, [Vec3::ZERO, unit(k)]).as_nalgebra();
+        let columns = [
+            Matrix3::from_columns(&[of_gyro(0), of_gyro(1), of_gyro(2)]),
+            Matrix3::from_columns(&[of_accel(0), of_accel(1), of_accel(2)]),
+        ];
+        let mut squares = value * value.transpose();
+        for (columns, spread) in columns.iter().zip(&means.spread) {
+            squares += columns * spread * columns.transpose();
+        }
+        squares
+    }
+
+    /// phi (rad) that constant errors leave, to first order.
+    fn linear(&self, kind: &MethodKind, [eps, nabla]: [Vec3<T>; 2]) -> Vec3<T> {
+        let [n, e, d] = self.laws.bias(eps, nabla).as_array();
+        let Site { g, sin_lat: s, cos_lat: c, omega_ie: o, .. } = self.laws.site;
+        match kind {
+            MethodKind::Triad(Vectors::RateFirst) => Vec3::new(n, -(s * eps[0] + c * eps[2]) / o, d),
+            MethodKind::Triad(Vectors::Inverse) => {
+                Vec3::new(n, 0.5 * ((nabla[2] * s / c - nabla[0]) / g - eps[2] / (o * c)), d)
+            }
+            &MethodKind::Gyrocompass(tau) => {
+                Gyrocompass::new(Rot::IDENTITY, self.position, self.gravity, tau).settled(eps, nabla)
+            }
+            _ => Vec3::new(n, e, d),
+        }
+    }
+
+    /// Standard deviations of phi (rad) after `t` (s) by the method's own law of white noise; NaN where there is none.
+    fn noise(&self, kind: &MethodKind, t: f64) -> [f64; 3] {
+        let [gyro, accel] = self.white_means(1.0, |_| true).spread;
+        let density = |m: &Matrix3<f64>, axis: usize| m[(axis, axis)].sqrt();
+        // A tilt about north is seen by the east accelerometer, tilt about east and heading by the north one.
+        let of_axes = |angle: &dyn Fn(f64) -> Vec3<T>, velocity: &dyn Fn(f64) -> Vec3<T>| {
+            let (of_gyro, of_accel) = ([0, 1, 1], [1, 0, 0]);
+            std::array::from_fn(|k| {
+                angle(density(&gyro, of_gyro[k]))[k].hypot(velocity(density(&accel, of_accel[k]))[k])
+            })
+        };
+        match kind {
+            MethodKind::Triad(_) => self.left(kind, &self.white_means(t, |_| true)),
+            &MethodKind::Inertial { solution, latitude_known: true } => {
+                of_axes(&|n| self.laws.inertial_angle_walk(solution, n, t), &|q| {
+                    self.laws.inertial_velocity_walk(solution, q, t)
+                })
+            }
+            MethodKind::Inertial { latitude_known: false, .. } => [f64::NAN; 3],
+            &MethodKind::Gyrocompass(tau) if t >= SETTLED * tau => {
+                let settled = Gyrocompass::new(Rot::IDENTITY, self.position, self.gravity, tau);
+                of_axes(&|n| settled.angle_walk(n), &|q| settled.velocity_walk(q))
+            }
+            MethodKind::Gyrocompass(_) => [f64::NAN; 3],
+            MethodKind::AnyHeading(_) => self.separate(t, true).map(|law| rss(&law)),
+            MethodKind::Filter(settings) => self.separate(t, !settings.position).map(|law| rss(&law)),
+        }
+    }
+
+    /// The laws of the best estimator one by one, axis by axis (rad): angle random walk, velocity random walk and, where
+    /// velocity is `measured`, its white noise.
+    pub fn separate(&self, t: f64, measured: bool) -> [[f64; 3]; 3] {
+        let [gyro, accel] = self.white_means(1.0, |_| true).spread;
+        let [north_q, east_q] = [accel[(0, 0)].sqrt(), accel[(1, 1)].sqrt()];
+        let r = if measured { self.velocity } else { 0.0 };
+        let [north, _] = self.laws.tilt_velocity_walk(east_q, t);
+        let [_, east] = self.laws.tilt_velocity_walk(north_q, t);
+        let [north_v, east_v] = self.laws.tilt_velocity_noise(r, t);
+        [
+            [0.0, north, north_v],
+            [0.0, east, east_v],
+            [
+                self.laws.heading_angle_walk(gyro[(1, 1)].sqrt(), t),
+                self.laws.heading_velocity_walk(north_q, t),
+                self.laws.heading_velocity_noise(r, t),
+            ],
+        ]
+    }
+
+    /// What stays and noise in variance, rad; NaN where no law is known.
+    pub fn total(&self, kind: &MethodKind, means: &Means, t: f64) -> [f64; 3] {
+        let at_rest_only = matches!(kind, MethodKind::Triad(_) | MethodKind::Gyrocompass(_));
+        if self.turned(t) || (self.rocks && at_rest_only) {
+            return [f64::NAN; 3];
+        }
+        let (stays, noise) = (self.left(kind, means), self.noise(kind, t));
+        std::array::from_fn(|k| stays[k].hypot(noise[k]))
+    }
+
+    /// Means of the products of phi (rad²): of what stays with the variances of noise on its diagonal.
+    pub fn total_squares(&self, kind: &MethodKind, means: &Means, t: f64) -> Matrix3<f64> {
+        let mut squares = self.left_squares(kind, means);
+        for (axis, total) in self.total(kind, means, t).into_iter().enumerate() {
+            squares[(axis, axis)] = total * total;
+        }
+        squares
+    }
+
+    /// What a reader must know of the limits, `t` (s) being the time of the alignment.
+    pub fn words(&self, t: f64) -> Vec<String> {
+        let mut words = vec![format!(
+            "The limit of a method is, to first order, what the sensors' errors leave in one position, phi_N = nabla_E/g, phi_E = -nabla_N/g, phi_D = eps_E/(Ω cos L) - tan L nabla_E/g by their means over the time, and in variance to it the method's own law of white noise after {t} s: that of means (TRIAD), of the vectors laid upon each other (inertial), of the settled loop (gyrocompass, from ten tau on), of the best estimator that knows nothing before (filters); correlated noise and bursts of the velocity, knocks, what is known before and what is left of a coarse start are not in it"
+        )];
+        if self.rocks {
+            words.push("For a base that rocks TRIAD and the gyrocompass have no limit here".into());
+        }
+        if let Some(turn) = self.turn.filter(|turn| *turn < t) {
+            words.push(format!(
+                "The limit is that of one position, up to the turn at {turn} s; from there on no closed form holds, and a filter's own standard deviation, with all its noise, stands in its place"
+            ));
+        }
+        words
+    }
+}
+
+/// Root of the sum of the squares.
+fn rss(of: &[f64]) -> f64 {
+    of.iter().map(|x| x * x).sum::<f64>().sqrt()
 }

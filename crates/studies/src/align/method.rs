@@ -1,11 +1,15 @@
 //! A method at work: samples and velocities in, an attitude and what the method thinks of it out.
 
 use schuler_frames::{B, I, Rate, Rot, T, Vec3};
-use schuler_strapdown::align::{AnyHeading, AnyHeadingNoise, Gyrocompass, InertialFrame, Solution, Vectors};
+use schuler_strapdown::align::{
+    AnyHeading, AnyHeadingNoise, Gyrocompass, InertialFrame, Limits, Solution, Vectors,
+};
+use schuler_strapdown::static_base::Site;
 use schuler_strapdown::{BodyMotion, Increments};
 
 use super::fine::Fine;
 use super::place::Place;
+use super::withheld::at_pole;
 use crate::scenario::{Method, MethodKind};
 
 /// A method while it works.
@@ -31,8 +35,15 @@ pub struct Found {
 }
 
 impl Worker {
-    /// A method that begins; `duration` (s) is the time it will have.
-    pub fn new(method: &Method, duration: f64) -> Result<Worker, String> {
+    /// A method that begins at `place`; `duration` (s) is the time it will have.
+    ///
+    /// A filter keeps its errors along north and east and heading: at a pole there is none.
+    pub fn new(method: &Method, place: &Place, duration: f64) -> Result<Worker, String> {
+        if matches!(method.kind, MethodKind::Filter(_) | MethodKind::AnyHeading(_))
+            && let Some(why) = at_pole(&Limits::new(Site::new(place.position, place.gravity)))
+        {
+            return Err(why.into());
+        }
         Ok(match &method.kind {
             MethodKind::Triad(vectors) => {
                 Worker::Mean { vectors: *vectors, dtheta: Vec3::ZERO, dv: Vec3::ZERO, time: 0.0 }
@@ -118,7 +129,7 @@ impl Worker {
     pub fn found(&self, place: &Place) -> Result<Found, String> {
         let (position, gravity) = (place.position, place.gravity);
         let alone = |c_tb| Found { c_tb, sigma: None };
-        match self {
+        let found = match self {
             Worker::Mean { vectors, dtheta, dv, time } => {
                 let (omega, f) = (*dtheta * (1.0 / time), *dv * (1.0 / time));
                 let found = vectors.attitude(f, Rate::<B, I, B>::claim(omega), position, gravity);
@@ -140,7 +151,11 @@ impl Worker {
                 Ok(Found { c_tb: filter.attitude(), sigma: Some(filter.sigma()) })
             }
             Worker::Fine(fine) => fine.found(),
-        }
+        };
+        let finite = |found: &Found| found.c_tb.as_dcm().as_nalgebra().iter().all(|x| x.is_finite());
+        found.and_then(|found: Found| {
+            if finite(&found) { Ok(found) } else { Err("its attitude is no finite number any more".into()) }
+        })
     }
 
     /// What the method knows of the sensors' errors now, along body axes (rad/s, m/s²), to be taken out of what they measure.
@@ -156,6 +171,14 @@ impl Worker {
         match self {
             Worker::Fine(fine) => (0..fine.filter().model().len()).map(|k| fine.filter().sigma(k)).collect(),
             _ => Vec::new(),
+        }
+    }
+
+    /// The filter in it, if it is one with a model.
+    pub fn fine(&self) -> Option<&Fine> {
+        match self {
+            Worker::Fine(fine) => Some(fine),
+            _ => None,
         }
     }
 

@@ -1,10 +1,13 @@
 //! The align study: methods of alignment side by side, each beside its analytic limit.
 
 mod adaptation;
+mod ends;
 mod figures;
 mod fine;
 mod limit;
 mod log;
+mod log_figures;
+mod mean;
 mod method;
 mod observability;
 mod place;
@@ -14,11 +17,10 @@ mod scene;
 mod statistics;
 #[cfg(test)]
 mod tests;
+mod withheld;
 
 use rayon::prelude::*;
 use schuler_imu::Stream;
-use schuler_strapdown::align::Limits;
-use schuler_strapdown::static_base::Site;
 
 use crate::record::Record;
 use crate::scenario::{AlignStudy, Imu, Motion, Origin, Study};
@@ -35,11 +37,11 @@ const GROUP: u64 = 8;
 ///
 /// On a simulated base every run draws sensor errors, coarse errors and the noise of what is measured, and hands the
 /// same samples to all methods; run i is a pure function of scenario, seed and i. The record has `errors` (over time: the
-/// first run, root mean square over all runs, the method's own standard deviation, analytic limit), `consistency` (mean
-/// NEES with its band) and `finals` (each run at the end).
+/// first run, root mean square over all runs, the method's own standard deviation, the limit of the method), `consistency` (mean
+/// NEES and NIS with their bands), `innovations` (of the first run), `observability` (of each state) and `finals` (each run at the end).
 ///
-/// A log is cut into windows that are aligned one by one: `windows` has the attitudes found. Its first window can
-/// be navigated on from.
+/// A log is cut into windows that are aligned one by one: `windows` has the attitudes found, each beside the method's own standard
+/// deviation and its limit. Its first window can be navigated on from, less the sensor errors that the method knows.
 ///
 /// # Errors
 /// The IMU refuses its list of sources, a filter its settings; a log that is not there or is wrong somewhere.
@@ -86,15 +88,12 @@ fn simulated(
     let mut totals = Totals::default();
     groups.into_iter().for_each(|group| totals.merge(group));
 
-    let velocity = study.velocity.noise.powi(2) * study.velocity.every as f64 * scene.dt;
-    let limit = Limit::new(
-        Limits::new(Site::new(scene.position, scene.gravity)),
-        &imu.spec,
-        &scene.input(0),
-        scene.dt,
-        scene.c_tb(0),
-        velocity,
-        !matches!(motion, Motion::Positions(..)),
-    );
+    let rocks = matches!(motion, Motion::Sway(_) | Motion::Coning(_));
+    let turn = match motion {
+        Motion::Positions(poses, _) if poses.len() > 1 => Some(poses[0].dwell),
+        _ => None,
+    };
+    let sensors = (&imu.spec, &scene.input(0), scene.dt);
+    let limit = Limit::new(study, sensors, scene.c_tb(0), study.velocity.noise, rocks, turn);
     Ok(report::record(scenario, study, &scene, &limit, &first, &totals, end))
 }

@@ -1,6 +1,6 @@
 //! The record of an align study.
 
-use schuler_frames::phi_between;
+use nalgebra::Matrix3;
 use schuler_strapdown::filter::chi_square;
 
 use super::figures;
@@ -10,16 +10,18 @@ use super::place::Place;
 use super::run::Trace;
 use super::scene::Scene;
 use super::statistics::{Sums, Totals};
+use super::withheld::Withheld;
 use crate::Scenario;
 use crate::record::{Cell, Record, Table, columns};
-use crate::scenario::{AlignStudy, MethodKind};
+use crate::scenario::{AlignStudy, FilterSettings, MethodKind};
 
 /// Arc minutes in a radian.
 const ARCMIN: f64 = 10_800.0 / std::f64::consts::PI;
 
 /// Columns of the summary, at the end of the alignment and in the unit of the field: root mean square over all runs, the
-/// method's own standard deviation of heading, the analytic limit, and the mean NEES a degree of freedom with its 99 % band.
-const SUMMARY: [&str; 12] = [
+/// method's own standard deviation of heading, the limit of the method with its part that stays, the mean NEES a degree of
+/// freedom and the mean NIS of all updates, both with their 99 % band.
+const SUMMARY: [&str; 15] = [
     "method",
     "phi_n_arcmin",
     "phi_e_arcmin",
@@ -32,7 +34,79 @@ const SUMMARY: [&str; 12] = [
     "nees",
     "nees_low",
     "nees_high",
+    "nis",
+    "nis_low",
+    "nis_high",
 ];
+
+/// What all tables and pictures are made of.
+pub struct Results<'a> {
+    pub study: &'a AlignStudy,
+    pub scene: &'a Scene,
+    pub limit: &'a Limit,
+    pub first: &'a [Trace],
+    pub totals: &'a Totals,
+    /// The row of the end of the alignment.
+    pub end: usize,
+    /// The limit of each method at each row of the alignment, rad; NaN where there is none.
+    pub limits: Vec<Vec<[f64; 3]>>,
+    /// Of it at the end, what stays.
+    pub stays: Vec<[f64; 3]>,
+    /// Means of products of phi at the end by the limit of each method, rad².
+    pub squares: Vec<Matrix3<f64>>,
+    pub withheld: Withheld,
+}
+
+impl<'a> Results<'a> {
+    fn new(
+        study: &'a AlignStudy,
+        scene: &'a Scene,
+        limit: &'a Limit,
+        first: &'a [Trace],
+        totals: &'a Totals,
+        end: usize,
+    ) -> Self {
+        let withheld = Withheld::new(study, limit, scene.time(scene.samples));
+        let means: Vec<_> =
+            scene.rows[..=end].iter().map(|&k| limit.means(scene.time(k), |_| true)).collect();
+        let known = |i: usize, mut phi: [f64; 3]| {
+            if withheld.heading[i] {
+                phi[2] = f64::NAN;
+            }
+            phi
+        };
+        let of_rows = |i: usize, kind: &MethodKind| {
+            let rows = scene.rows.iter().zip(&means);
+            rows.map(|(&k, means)| known(i, limit.total(kind, means, scene.time(k)))).collect()
+        };
+        let limits = study.methods.iter().enumerate().map(|(i, m)| of_rows(i, &m.kind)).collect();
+        let one_position = !limit.turned(scene.time(scene.samples));
+        let stays = study.methods.iter().enumerate().map(|(i, method)| {
+            if one_position { known(i, limit.left(&method.kind, &means[end])) } else { [f64::NAN; 3] }
+        });
+        let stays = stays.collect();
+        let t = scene.time(scene.samples);
+        let squares = study.methods.iter().map(|m| limit.total_squares(&m.kind, &means[end], t)).collect();
+        Results { study, scene, limit, first, totals, end, limits, stays, squares, withheld }
+    }
+
+    /// The nine errors of a method without what cannot be had.
+    pub fn shown(&self, method: usize, mut errors: [f64; 9]) -> [f64; 9] {
+        if self.withheld.heading[method] {
+            errors[8] = f64::NAN;
+        }
+        errors
+    }
+
+    /// The same of its standard deviations of phi.
+    pub fn sigma(&self, method: usize, row: usize) -> [f64; 3] {
+        let mut sigma = self.totals.sums[method][row].sigma();
+        if self.withheld.heading[method] {
+            sigma[2] = f64::NAN;
+        }
+        sigma
+    }
+}
 
 pub fn record(
     scenario: &Scenario,
@@ -43,67 +117,57 @@ pub fn record(
     totals: &Totals,
     end: usize,
 ) -> Record {
-    let no_heading = limit.no_heading(scene.time(scene.samples));
-    let shown = |errors: [f64; 9]| {
-        let mut errors = errors;
-        if no_heading.is_some() {
-            errors[8] = f64::NAN;
-        }
-        errors
-    };
-    let mut record = Record::new(scenario, summary(study, scene, limit, totals, end, &shown));
-    record.tables.push(errors(study, scene, limit, first, totals, &shown));
-    record.tables.push(consistency(study, scene, totals, end));
-    let observed = observe(study, scene);
-    record.tables.push(states(&observed, first));
-    record.tables.push(finals(study, totals, no_heading.is_some()));
-    record.notes = notes(study, scene, totals);
+    let results = Results::new(study, scene, limit, first, totals, end);
+    let mut record = Record::new(scenario, summary(&results));
+    record.tables.push(errors(&results));
+    record.tables.push(consistency(&results));
+    let innovations = innovations(&results);
+    if !innovations.is_empty() {
+        record.tables.push(innovations);
+    }
+    let observed = observe(study, scene, limit.rocks);
+    let ends: Vec<&[f64]> = first.iter().map(|trace| trace.states.as_slice()).collect();
+    record.tables.push(states(&observed, &ends));
+    record.tables.push(finals(&results));
+    record.notes = limit.words(scene.time(scene.samples));
+    record.notes.extend(notes(&results));
     record.notes.extend(unobserved(&observed));
-    record.notes.extend(no_heading.clone());
+    record.notes.extend(results.withheld.notes.clone());
     if scenario.output.formats.png || scenario.output.formats.svg {
-        record.figures = figures::figures(&scenario.title, study, scene, limit, first, totals, end);
+        record.figures = figures::figures(&scenario.title, &results);
     }
     record
 }
 
 /// 99 % band of the mean of `dof` squares of standard normals.
-fn band(dof: u64) -> [f64; 2] {
+pub fn band(dof: u64) -> [f64; 2] {
     let n = dof as usize;
     [0.995, 0.005].map(|p| if n == 0 { f64::NAN } else { chi_square::quantile(p, n) / n as f64 })
 }
 
-fn summary(
-    study: &AlignStudy,
-    scene: &Scene,
-    limit: &Limit,
-    totals: &Totals,
-    end: usize,
-    shown: &dyn Fn([f64; 9]) -> [f64; 9],
-) -> Table {
+fn summary(results: &Results) -> Table {
     let mut table = Table::new("summary", &SUMMARY, &["method"]);
-    let total = limit.total(scene.time(scene.samples));
-    for (method, sums) in study.methods.iter().zip(&totals.sums) {
-        let sums = &sums[end];
-        let rms = shown(sums.rms());
-        let [low, high] = if sums.with_nees > 0 { band(3 * sums.with_nees) } else { [f64::NAN; 2] };
+    let end = results.end;
+    for (i, (method, rows)) in results.study.methods.iter().zip(&results.totals.sums).enumerate() {
+        let sums = &rows[end];
+        let (rms, total) = (results.shown(i, sums.rms()), results.limits[i][end]);
+        let nees = if results.withheld.heading[i] { 0 } else { sums.with_nees };
+        let ratio = if nees > 0 { sums.nees_ratio() } else { f64::NAN };
+        let (nis, freedom) = sums.nis_since(None);
         let mut row: Vec<Cell> = vec![method.name.as_str().into()];
-        let angles = [rms[6], rms[7], rms[8], sums.sigma()[2], total[0], total[1], total[2], limit.bias()[2]];
+        let sigma = results.sigma(i, end)[2];
+        let angles = [rms[6], rms[7], rms[8], sigma, total[0], total[1], total[2], results.stays[i][2]];
         row.extend(angles.map(|x| Cell::from(x * ARCMIN)));
-        row.extend([sums.nees_ratio(), low, high].map(Cell::from));
+        let ([low, high], [least, most]) = (band(3 * nees), band(freedom));
+        row.extend([ratio, low, high, nis, least, most].map(Cell::from));
         table.push(&row);
     }
     table
 }
 
 /// Over time and method: the first run, root mean squares, own standard deviations, the limit.
-fn errors(
-    study: &AlignStudy,
-    scene: &Scene,
-    limit: &Limit,
-    first: &[Trace],
-    totals: &Totals,
-    shown: &dyn Fn([f64; 9]) -> [f64; 9],
-) -> Table {
+fn errors(results: &Results) -> Table {
+    let Results { study, scene, .. } = *results;
     let mut table = Table::new("errors", &columns::ERRORS, &["source", "way"]);
     let mut push = |k: u64, source: &str, way: &str, errors: [f64; 9]| {
         let mut row: Vec<Cell> = vec![scene.time(k).into(), source.into(), way.into()];
@@ -117,70 +181,93 @@ fn errors(
     };
     for (i, method) in study.methods.iter().enumerate() {
         for (j, &k) in scene.rows.iter().enumerate() {
-            let sums: &Sums = &totals.sums[i][j];
-            push(k, &method.name, "run", shown(first[i].rows[j].error.as_array()));
+            let sums: &Sums = &results.totals.sums[i][j];
+            push(k, &method.name, "run", results.shown(i, results.first[i].rows[j].error.as_array()));
             if study.runs > 1 {
-                push(k, &method.name, "rms", shown(sums.rms()));
+                push(k, &method.name, "rms", results.shown(i, sums.rms()));
             }
             if k <= scene.samples {
                 if matches!(method.kind, MethodKind::Filter(_) | MethodKind::AnyHeading(_)) {
-                    push(k, &method.name, "sigma", attitude(sums.sigma()));
+                    push(k, &method.name, "sigma", attitude(results.sigma(i, j)));
                 }
-                push(k, &method.name, "limit", attitude(limit.total(scene.time(k))));
+                push(k, &method.name, "limit", attitude(results.limits[i][j]));
             }
         }
     }
     table
 }
 
-/// Of methods with a covariance: mean NEES a degree of freedom with its band, and the square of the heading error over that of its
-/// standard deviation with its own.
-fn consistency(study: &AlignStudy, scene: &Scene, totals: &Totals, end: usize) -> Table {
+/// Of methods with a covariance: mean NEES a degree of freedom with its band, the square of the heading error over that of its
+/// standard deviation with its own, and NIS. Where heading cannot be had nothing but NIS, which looks at what is measured.
+fn consistency(results: &Results) -> Table {
     let mut table = Table::new("consistency", &columns::CONSISTENCY, &["source"]);
-    for (method, rows) in study.methods.iter().zip(&totals.sums) {
-        for (sums, &k) in rows[..=end].iter().zip(&scene.rows) {
+    for (i, (method, rows)) in results.study.methods.iter().zip(&results.totals.sums).enumerate() {
+        for (j, &k) in results.scene.rows[..=results.end].iter().enumerate() {
+            let sums = &rows[j];
             if sums.with_nees == 0 {
                 continue;
             }
             let ([low, high], [least, most]) = (band(3 * sums.with_nees), band(sums.count));
             let heading = (sums.rms()[8] / sums.sigma()[2]).powi(2);
-            let numbers = [sums.nees_ratio(), low, high, heading, least, most];
-            let mut row: Vec<Cell> = vec![scene.time(k).into(), method.name.as_str().into()];
-            row.extend(numbers.map(Cell::from));
+            let mut numbers = [sums.nees_ratio(), low, high, heading, least, most];
+            if results.withheld.heading[i] {
+                numbers = [f64::NAN; 6];
+            }
+            let (nis, freedom) = sums.nis_since(j.checked_sub(1).map(|before| &rows[before]));
+            let [lowest, highest] = band(freedom);
+            let mut row: Vec<Cell> = vec![results.scene.time(k).into(), method.name.as_str().into()];
+            row.extend(numbers.into_iter().chain([nis, lowest, highest]).map(Cell::from));
             table.push(&row);
         }
     }
     table
 }
 
-/// What each filter can observe at all: on a base that does not turn by its start, else by the start and the end.
-fn observe(study: &AlignStudy, scene: &Scene) -> Vec<(String, usize, Observed)> {
-    let coning = study.mechanization.coning;
-    let place = Place { position: scene.position, gravity: scene.gravity, vertical: scene.vertical, coning };
-    let attitudes = [scene.c_tb(0), scene.c_tb(scene.samples)];
-    let still = phi_between(attitudes[0], attitudes[1]).norm() == 0.0;
-    let attitudes = if still { &attitudes[..1] } else { &attitudes[..] };
-    study
-        .methods
-        .iter()
-        .enumerate()
-        .filter_map(|(i, method)| match &method.kind {
-            MethodKind::Filter(settings) => {
-                Some((method.name.clone(), i, observability::observed(settings, &place, attitudes)?))
+/// Of the first run: the last innovations before each row, computed minus measured, and their predicted standard deviations.
+fn innovations(results: &Results) -> Table {
+    let names = ["t_s", "source", "innovation_n", "innovation_e", "sigma_n", "sigma_e"];
+    let mut table = Table::new("innovations", &names, &["source"]);
+    for (method, trace) in results.study.methods.iter().zip(results.first) {
+        for (row, &k) in trace.rows[..=results.end].iter().zip(&results.scene.rows) {
+            let numbers = row.innovation.as_flattened();
+            if numbers.iter().all(|x| x.is_finite()) {
+                let mut cells: Vec<Cell> = vec![results.scene.time(k).into(), method.name.as_str().into()];
+                cells.extend(numbers.iter().map(|x| Cell::from(*x)));
+                table.push(&cells);
             }
-            _ => None,
-        })
-        .collect()
+        }
+    }
+    table
 }
 
-/// States of each filter: standard deviation at the start, at the end, and after endless noise-free measurement.
-fn states(observed: &[(String, usize, Observed)], first: &[Trace]) -> Table {
-    let names = ["source", "state", "start", "end", "limit"];
+/// What each filter can observe at all: at rest exactly, one position after the other; of a base that rocks by the run.
+fn observe(study: &AlignStudy, scene: &Scene, rocks: bool) -> Vec<(String, usize, Observed)> {
+    let coning = study.mechanization.coning;
+    let place = Place { position: scene.position, gravity: scene.gravity, vertical: scene.vertical, coning };
+    let every = study.velocity.every;
+    let dwells = scene.dwells(every);
+    let of = |settings: &FilterSettings| {
+        if rocks {
+            observability::rocking(settings, &place, scene, every)
+        } else {
+            observability::at_rest(settings, &place, &dwells)
+        }
+    };
+    let filters = study.methods.iter().enumerate().filter_map(|(i, method)| match &method.kind {
+        MethodKind::Filter(settings) => Some((method.name.clone(), i, of(settings)?)),
+        _ => None,
+    });
+    filters.collect()
+}
+
+/// States of each filter: standard deviation at the start, at the end (of each method, `ends`), and what [`observability::State::limit`] is.
+pub fn states(observed: &[(String, usize, Observed)], ends: &[&[f64]]) -> Table {
+    let names = ["source", "state", "start", "end", "limit", "limit_ratio"];
     let mut table = Table::new("observability", &names, &["source", "state"]);
     for (name, i, observed) in observed {
         for (k, state) in observed.states.iter().enumerate() {
-            let end = first[*i].states.get(k).copied().unwrap_or(f64::NAN);
-            let numbers = [state.start, end, state.limit];
+            let end = ends[*i].get(k).copied().unwrap_or(f64::NAN);
+            let numbers = [state.start, end, state.limit, state.limit / state.start];
             let mut row: Vec<Cell> = vec![name.as_str().into(), state.name.as_str().into()];
             row.extend(numbers.map(Cell::from));
             table.push(&row);
@@ -190,17 +277,19 @@ fn states(observed: &[(String, usize, Observed)], first: &[Trace]) -> Table {
 }
 
 /// Rank and unobservable combinations, once for filters that share them.
-fn unobserved(observed: &[(String, usize, Observed)]) -> Vec<String> {
+pub fn unobserved(observed: &[(String, usize, Observed)]) -> Vec<String> {
     let mut said: Vec<(Vec<&str>, String)> = Vec::new();
     for (name, _, observed) in observed {
-        let Observed { rank, of, never, .. } = observed;
-        let text = if never.is_empty() {
-            format!("observes all of its {of} states")
-        } else {
-            format!(
-                "observes {rank} of {of} combinations of its states (SI units); never: {}",
-                never.iter().map(|v| format!("({v})")).collect::<Vec<_>>().join(", ")
-            )
+        let Observed { rank, of, unseen, rocks, .. } = observed;
+        let list = unseen.iter().map(|v| format!("({v})")).collect::<Vec<_>>().join(", ");
+        let text = match (unseen.is_empty(), rocks) {
+            (true, _) => format!("observes all of its {of} states"),
+            (false, false) => {
+                format!("observes {rank} of {of} combinations of its states (SI units); never: {list}")
+            }
+            (false, true) => format!(
+                "observes {rank} of {of} combinations of its states (SI units) by more than half of their variance; of the others the rocking tells less, even without noise of the sensors: {list}"
+            ),
         };
         match said.iter_mut().find(|(_, same)| *same == text) {
             Some((names, _)) => names.push(name),
@@ -211,12 +300,12 @@ fn unobserved(observed: &[(String, usize, Observed)]) -> Vec<String> {
 }
 
 /// Each run at the end of the alignment.
-fn finals(study: &AlignStudy, totals: &Totals, no_heading: bool) -> Table {
+fn finals(results: &Results) -> Table {
     let names = ["run_count", "source", "final_phi_n_rad", "final_phi_e_rad", "final_phi_d_rad"];
     let mut table = Table::new("finals", &names, &["source"]);
-    for (method, finals) in study.methods.iter().zip(&totals.finals) {
+    for (i, (method, finals)) in results.study.methods.iter().zip(&results.totals.finals).enumerate() {
         for (run, &[n, e, d]) in finals.iter().enumerate() {
-            let d = if no_heading { f64::NAN } else { d };
+            let d = if results.withheld.heading[i] { f64::NAN } else { d };
             table.push(&[(run as f64).into(), method.name.as_str().into(), n.into(), e.into(), d.into()]);
         }
     }
@@ -224,34 +313,43 @@ fn finals(study: &AlignStudy, totals: &Totals, no_heading: bool) -> Table {
 }
 
 /// What a reader of the numbers must know.
-fn notes(study: &AlignStudy, scene: &Scene, totals: &Totals) -> Vec<String> {
-    let mut notes = vec![format!(
-        "The limit is that of constant errors in one position, phi_N = nabla_E/g, phi_E = -nabla_N/g, phi_D = eps_E/(Ω cos L) - tan L nabla_E/g, and the laws of noise after {} s, added in variance; a base that is turned has the laws of noise alone",
-        scene.time(scene.samples)
-    )];
+fn notes(results: &Results) -> Vec<String> {
+    let Results { study, totals, .. } = *results;
+    let mut notes = Vec::new();
+    for method in study.methods.iter().filter(|m| matches!(m.kind, MethodKind::AnyHeading(_))) {
+        notes.push(format!(
+            "The own standard deviation of `{}` is that of noise alone: constant errors of the sensors, which no alignment in one position tells from attitude, are no states of it and come on top (bias limit)",
+            method.name
+        ));
+    }
     for (method, (count, why)) in study.methods.iter().zip(&totals.failures) {
         if let Some(why) = why {
             notes
                 .push(format!("`{}` gave no attitude in {count} of {} runs: {why}", method.name, study.runs));
         }
     }
-    let outside: Vec<String> = study
-        .methods
-        .iter()
-        .zip(&totals.sums)
-        .filter_map(|(method, rows)| {
-            let sums = rows.get(scene.rows.iter().position(|k| *k == scene.samples)?)?;
-            let [low, high] = band(3 * sums.with_nees);
-            let ratio = sums.nees_ratio();
-            (sums.with_nees > 0 && !(low..=high).contains(&ratio))
-                .then(|| format!("`{}` ({ratio:.2}, band {low:.2} to {high:.2})", method.name))
+    let outside = |what: &str, of: &dyn Fn(usize, &Sums) -> (f64, u64)| {
+        let all = study.methods.iter().zip(&totals.sums).enumerate();
+        let names: Vec<String> = all
+            .filter_map(|(i, (method, rows))| {
+                let (ratio, freedom) = of(i, &rows[results.end]);
+                let [low, high] = band(freedom);
+                (freedom > 0 && !(low..=high).contains(&ratio))
+                    .then(|| format!("`{}` ({ratio:.3}, band {low:.3} to {high:.3})", method.name))
+            })
+            .collect();
+        (!names.is_empty()).then(|| {
+            format!(
+                "Not consistent, because their mean {what} a degree of freedom is outside of its 99 % band: {}",
+                names.join(", ")
+            )
         })
-        .collect();
-    if !outside.is_empty() {
-        notes.push(format!(
-            "Not consistent, because their mean NEES a degree of freedom is outside of its 99 % band: {}",
-            outside.join(", ")
-        ));
-    }
+    };
+    let nees = |i: usize, sums: &Sums| match results.withheld.heading[i] {
+        true => (f64::NAN, 0),
+        false => (sums.nees_ratio(), 3 * sums.with_nees),
+    };
+    notes.extend(outside("NEES", &nees));
+    notes.extend(outside("NIS", &|_, sums| sums.nis_since(None)));
     notes
 }

@@ -2,6 +2,7 @@
 
 use schuler_frames::{B, Rot, T, Vec3, with_phi};
 use schuler_imu::{Imu, Stream, random::Draws};
+use schuler_strapdown::filter::Tally;
 use schuler_strapdown::{Increments, LocalLevel, Mechanization, NavError, Pva, Samples};
 
 use super::method::{Worker, begin, measure};
@@ -17,8 +18,14 @@ pub struct Row {
     pub error: NavError,
     /// Standard deviations of phi by the method itself, rad; NaN without.
     pub sigma: [f64; 3],
+    /// Covariance of phi north and down by the method itself, rad²; zero without.
+    pub cross: f64,
     /// Normalized estimation error squared of phi; NaN without.
     pub nees: f64,
+    /// Of a filter, what its updates have found so far.
+    pub tally: Tally,
+    /// Of a filter's last update, north and east: innovations and their standard deviations (m/s or m); NaN without.
+    pub innovation: [[f64; 2]; 2],
 }
 
 /// What a method did in a run.
@@ -29,6 +36,20 @@ pub struct Trace {
     pub failure: Option<String>,
     /// Standard deviations of a filter's states at the end of the alignment.
     pub states: Vec<f64>,
+}
+
+impl Row {
+    /// Without anything but errors.
+    fn of(error: NavError) -> Row {
+        Row {
+            error,
+            sigma: [f64::NAN; 3],
+            cross: 0.0,
+            nees: f64::NAN,
+            tally: Tally::default(),
+            innovation: [[f64::NAN; 2]; 2],
+        }
+    }
 }
 
 const NOTHING: Vec3<T> = Vec3::new(f64::NAN, f64::NAN, f64::NAN);
@@ -42,7 +63,7 @@ pub fn run(scene: &Scene, study: &AlignStudy, imu: &Instrument, stream: Stream) 
     let mut reference = Reference::new(&study.velocity, stream, dt);
     let mut coarse = CoarseWork::new(study, scene, stream);
     let mut workers: Vec<Result<Worker, String>> =
-        study.methods.iter().map(|method| Worker::new(method, scene.time(scene.samples))).collect();
+        study.methods.iter().map(|method| Worker::new(method, &place, scene.time(scene.samples))).collect();
     let trace = || Trace { rows: Vec::with_capacity(scene.rows.len()), failure: None, states: Vec::new() };
     let mut traces: Vec<Trace> = workers.iter().map(|_| trace()).collect();
     let mut samples = Samples::new(coning);
@@ -99,35 +120,43 @@ fn aligned(worker: &Result<Worker, String>, place: &Place, scene: &Scene, k: u64
             if last {
                 trace.states = worker.state_sigmas();
             }
-            Row { error, sigma, nees: worker.nees(phi).unwrap_or(f64::NAN) }
+            let mut row = Row { sigma, nees: worker.nees(phi).unwrap_or(f64::NAN), ..Row::of(error) };
+            if let Some(fine) = worker.fine() {
+                row.cross = fine.cross();
+                row.tally = fine.filter().tally();
+                if let Some(last) = fine.last() {
+                    let deviation = |k: usize| last.s[k][k].sqrt();
+                    row.innovation = [[last.innovation[0], last.innovation[1]], [deviation(0), deviation(1)]];
+                }
+            }
+            row
         }
         Err(why) => {
             if last {
                 trace.failure = Some(why);
             }
-            let error = NavError { phi: NOTHING, ..NavError::default() };
-            Row { error, sigma: [f64::NAN; 3], nees: f64::NAN }
+            Row::of(NavError { phi: NOTHING, ..NavError::default() })
         }
     }
 }
 
 fn navigated(navigator: Option<&Navigator>, truth: &Pva) -> Row {
-    let error = match navigator {
+    Row::of(match navigator {
         Some(navigator) => NavError::between(&navigator.level.pva(), truth),
         None => NavError { dr: NOTHING, dv: NOTHING, phi: NOTHING },
-    };
-    Row { error, sigma: [f64::NAN; 3], nees: f64::NAN }
+    })
 }
 
 /// Free inertial navigation from an alignment on, less the sensor errors that the method knows.
-struct Navigator {
+pub struct Navigator {
     level: LocalLevel,
     samples: Samples,
     known: [Vec3<B>; 2],
 }
 
 impl Navigator {
-    fn from(worker: &Result<Worker, String>, place: &Place, truth: &Pva) -> Option<Navigator> {
+    /// From the attitude that a method has found, at the true place and velocity; `None` where it has none.
+    pub fn from(worker: &Result<Worker, String>, place: &Place, truth: &Pva) -> Option<Navigator> {
         let worker = worker.as_ref().ok()?;
         let c_tb = worker.found(place).ok()?.c_tb;
         let start = Pva { c_tb, ..*truth };
@@ -138,12 +167,18 @@ impl Navigator {
         })
     }
 
-    fn advance(&mut self, increments: &Increments, dt: f64) {
+    /// One sample.
+    pub fn advance(&mut self, increments: &Increments, dt: f64) {
         let [gyro, accel] = self.known;
         let freed = Increments { dtheta: increments.dtheta - gyro * dt, dv: increments.dv - accel * dt };
         if let Some(motion) = self.samples.add(&freed) {
             self.level.advance(&motion, dt);
         }
+    }
+
+    /// Where it is by its own account.
+    pub fn pva(&self) -> Pva {
+        self.level.pva()
     }
 }
 

@@ -110,6 +110,28 @@ impl Scene {
         }
     }
 
+    /// The attitudes of the alignment in which the base stands still from one measurement to the next, `every` so many samples, one
+    /// after the other, as the gyros see them: a knock that they miss is none.
+    pub fn dwells(&self, every: u64) -> Vec<Rot<T, B>> {
+        let at = |k: u64| self.base.truth.moment(k as f64 * self.dt).pva.c_tb;
+        let same = |a: Rot<T, B>, b: Rot<T, B>| phi_between(a, b).norm() < 1e-12;
+        let mut dwells = vec![at(0)];
+        if self.base.inputs.len() > 1 {
+            for k in (1..=self.samples / every).map(|n| n * every) {
+                let now = at(k);
+                if same(now, at(k - every)) && !dwells.last().is_some_and(|last| same(*last, now)) {
+                    dwells.push(now);
+                }
+            }
+        }
+        dwells
+    }
+
+    /// When the knock comes, s.
+    pub fn knock(&self) -> Option<f64> {
+        self.base.knock.map(|(at, _)| self.time(at))
+    }
+
     /// Position, velocity and attitude after `k` samples.
     pub fn pva(&self, k: u64) -> schuler_strapdown::Pva {
         let pva = self.base.truth.moment(k as f64 * self.dt).pva;

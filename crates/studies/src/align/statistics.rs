@@ -11,9 +11,14 @@ pub struct Sums {
     pub squares: [f64; 9],
     /// Of the method's own variances of phi.
     pub variances: [f64; 3],
+    /// Of its own covariances of phi north and down.
+    pub cross: f64,
     /// Of the normalized estimation error squared, and how many had one.
     pub nees: f64,
     pub with_nees: u64,
+    /// Of the normalized innovations squared of all updates up to the row, and of their degrees of freedom.
+    pub nis: f64,
+    pub nis_freedom: u64,
 }
 
 impl Sums {
@@ -29,18 +34,24 @@ impl Sums {
         for (sum, s) in self.variances.iter_mut().zip(row.sigma) {
             *sum += s * s;
         }
+        self.cross += row.cross;
         if row.nees.is_finite() {
             self.nees += row.nees;
             self.with_nees += 1;
         }
+        self.nis += row.tally.nis;
+        self.nis_freedom += row.tally.rows;
     }
 
     fn merge(&mut self, other: &Sums) {
         self.count += other.count;
         self.squares.iter_mut().zip(other.squares).for_each(|(a, b)| *a += b);
         self.variances.iter_mut().zip(other.variances).for_each(|(a, b)| *a += b);
+        self.cross += other.cross;
         self.nees += other.nees;
         self.with_nees += other.with_nees;
+        self.nis += other.nis;
+        self.nis_freedom += other.nis_freedom;
     }
 
     /// Root mean squares of the nine errors; NaN where no run had an attitude.
@@ -51,6 +62,18 @@ impl Sums {
     /// Root mean squares of the method's own standard deviations.
     pub fn sigma(&self) -> [f64; 3] {
         self.variances.map(|s| (s / self.count as f64).sqrt())
+    }
+
+    /// Mean normalized innovation squared a degree of freedom of the updates since `before`, and their degrees of freedom: 1 if the
+    /// filter is consistent. Without any the mean is NaN.
+    pub fn nis_since(&self, before: Option<&Sums>) -> (f64, u64) {
+        let (sum, freedom) = before.map_or((0.0, 0), |b| (b.nis, b.nis_freedom));
+        // A run that failed meanwhile is in one of the sums alone.
+        if before.is_some_and(|b| b.count != self.count) {
+            return (f64::NAN, 0);
+        }
+        let freedom = self.nis_freedom - freedom;
+        ((self.nis - sum) / freedom as f64, freedom)
     }
 
     /// Mean normalized estimation error squared a degree of freedom: 1 if the method is consistent.

@@ -178,7 +178,7 @@ fn unit_of(effect: f64, wanted: f64) -> f64 {
 /// constant it cancels or overflows. So it is taken over a short step and doubled, which only adds what is positive.
 /// Source: C. F. Van Loan, Computing integrals involving the matrix exponential, IEEE Trans. Automatic
 /// Control 23 (1978).
-fn van_loan(a: &DMatrix<f64>, q: &DMatrix<f64>, dt: f64) -> (DMatrix<f64>, DMatrix<f64>) {
+pub(crate) fn van_loan(a: &DMatrix<f64>, q: &DMatrix<f64>, dt: f64) -> (DMatrix<f64>, DMatrix<f64>) {
     let n = a.nrows();
     let mut doublings = 0;
     while a.norm() * dt * 0.5f64.powi(doublings) > 0.5 {

@@ -17,6 +17,7 @@ use crate::record::{Record, Table, columns};
 use crate::scenario::{Drift, Study};
 use crate::{Context, Diagnostic, Error, Scenario};
 use case::{Case, cases};
+pub(crate) use linear::van_loan;
 use linear::{Linear, Path};
 use scene::Scene;
 

@@ -263,8 +263,9 @@ pub mod columns {
         "f_z_mps2",
     ];
     /// `consistency.csv` of an alignment: mean NEES a degree of freedom with its 99 % band, and the square of the heading error
-    /// over that of its own standard deviation with its band.
-    pub const CONSISTENCY: [&str; 8] = [
+    /// over that of its own standard deviation with its band; of a filter the mean NIS a degree of freedom of the updates since the row
+    /// before, with its band.
+    pub const CONSISTENCY: [&str; 11] = [
         "t_s",
         "source",
         "nees_ratio",
@@ -273,9 +274,25 @@ pub mod columns {
         "heading_ratio",
         "heading_low_ratio",
         "heading_high_ratio",
+        "nis_ratio",
+        "nis_low_ratio",
+        "nis_high_ratio",
     ];
-    /// `windows.csv` of an alignment of a log: the attitude at the end of each window.
-    pub const WINDOWS: [&str; 5] = ["t_s", "source", "roll_rad", "pitch_rad", "yaw_rad"];
+    /// `windows.csv` of an alignment of a log: the attitude at the end of each window, the method's own standard deviations of phi
+    /// and its limits.
+    pub const WINDOWS: [&str; 11] = [
+        "t_s",
+        "source",
+        "roll_rad",
+        "pitch_rad",
+        "yaw_rad",
+        "sigma_n_rad",
+        "sigma_e_rad",
+        "sigma_d_rad",
+        "limit_n_rad",
+        "limit_e_rad",
+        "limit_d_rad",
+    ];
     /// `budget.csv`: standard deviations of the nine navigation errors; the root of the sum of the horizontal variances, the
     /// radii that hold 50 % and 95 % of the horizontal position errors and of the errors in space, and the shares of the
     /// horizontal variance and of the heading's.

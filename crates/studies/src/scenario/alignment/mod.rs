@@ -12,7 +12,7 @@ use schuler_strapdown::align::{AnyHeadingNoise, Solution, Vectors};
 
 use super::{
     de::At,
-    document::{Document, Spot},
+    document::{Document, NodeId, Spot},
     quantity::Range,
     valid::{Frame, Start},
     valid_motion::Motion,
@@ -49,7 +49,7 @@ impl Document {
             Origin::Simulated { imu, samples, .. } => (imu.rate, *samples),
             Origin::Log { log, window } => (log.rate, *window),
         };
-        let velocity = self.velocity_reference(alignment.velocity.as_ref(), rate)?;
+        let velocity = self.velocity_reference(alignment.velocity.as_ref(), rate, samples)?;
         let coarse = alignment.coarse.as_ref().map(|c| self.coarse(c, rate, samples)).transpose()?;
         if let (Origin::Log { .. }, Some(Coarse::Value(_) | Coarse::Sigma(_))) = (&origin, &coarse) {
             let node = alignment.coarse.as_ref().map_or(self.root(), |c| c.node);
@@ -71,7 +71,18 @@ impl Document {
                     .example("runs: 200"));
             }
         }
-        let knock = alignment.knock.as_ref().map(|k| self.knock(&k.value, rate)).transpose()?;
+        let knock = match (&alignment.knock, &origin) {
+            (Some(knock), Origin::Log { .. }) => {
+                return Err(self
+                    .diagnostic(
+                        Spot::Node(knock.node),
+                        "`knock` belongs to a simulation, and there is a `log`",
+                    )
+                    .help("take one of them out"));
+            }
+            (Some(knock), Origin::Simulated { .. }) => Some(self.knock(&knock.value, rate, samples)?),
+            (None, _) => None,
+        };
         let navigate = match &alignment.navigate {
             Some(duration) => self.whole_samples(duration, rate)?,
             None => 0,
@@ -141,6 +152,7 @@ impl Document {
         &self,
         velocity: Option<&At<written::Velocity>>,
         rate: f64,
+        samples: u64,
     ) -> Result<Velocity, Diagnostic> {
         let Some(velocity) = velocity else {
             let every = rate.round().max(1.0) as u64;
@@ -163,12 +175,29 @@ impl Document {
                         .expected("begin and end")
                         .example("burst: { window: [200 s, 260 s], factor: 20 }"));
                 }
+                if window[0] * rate >= samples as f64 {
+                    return Err(self.after_the_end(
+                        burst.value.window.node,
+                        "the burst begins",
+                        samples,
+                        rate,
+                    ));
+                }
                 Some((window, self.quantity(&burst.value.factor, Unit::ONE, Range::NonNegative)?))
             }
             None => None,
         };
+        let every = self.whole_samples(&w.every, rate)?;
+        if every > samples {
+            return Err(self.after_the_end(
+                w.every.node,
+                "the first measurement of the velocity comes",
+                samples,
+                rate,
+            ));
+        }
         Ok(Velocity {
-            every: self.whole_samples(&w.every, rate)?,
+            every,
             noise: w.noise.as_ref().map_or(Ok(0.0), |n| self.quantity(n, VELOCITY, Range::NonNegative))?,
             coloured,
             burst,
@@ -202,10 +231,19 @@ impl Document {
         })
     }
 
-    fn knock(&self, w: &written::Knock, rate: f64) -> Result<Knock, Diagnostic> {
+    fn knock(&self, w: &written::Knock, rate: f64, samples: u64) -> Result<Knock, Diagnostic> {
         let angle = |q: &super::written::Quantity| self.quantity(q, Unit::RADIAN, Range::Any);
         let [n, e] = self.quantities(&w.tilt, Unit::RADIAN)?;
-        Ok(Knock { at: self.whole_samples(&w.at, rate)?, phi: [n, e, angle(&w.heading)?] })
+        let at = self.whole_samples(&w.at, rate)?;
+        if at >= samples {
+            return Err(self.after_the_end(w.at.node, "the knock comes", samples, rate));
+        }
+        Ok(Knock { at, phi: [n, e, angle(&w.heading)?] })
+    }
+
+    fn after_the_end(&self, node: NodeId, what: &str, samples: u64, rate: f64) -> Diagnostic {
+        self.diagnostic(Spot::Node(node), format!("{what} after the end of the alignment"))
+            .expected(format!("a time within its {} s", samples as f64 / rate))
     }
 
     fn methods(
