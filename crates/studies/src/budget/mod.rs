@@ -16,6 +16,7 @@ mod rounding;
 mod scene;
 mod source;
 mod stepper;
+mod subject;
 #[cfg(test)]
 mod tests;
 
@@ -123,11 +124,12 @@ pub fn run(scenario: &Scenario, study: &Budget, context: &Context) -> Result<Rec
         }
     }
 
-    let mut record = Record::new(scenario, report::summary(&scene, &contributions));
+    let subjects = subject::subjects(&scene, &scenario.expect, &contributions);
+    let mut record = Record::new(scenario, report::summary(&scene, &contributions, subjects[0]));
     record.tables.push(report::table(&scene, &contributions));
     let agreement = Agreement::new(&scene, &sources, &contributions, own);
     record.tables.extend(agreement.as_ref().map(|agreement| agreement.table(&scene)));
-    record.notes = report::notes(&scene, &contributions, agreement.as_ref());
+    record.notes = report::notes(&scene, &contributions, agreement.as_ref(), &subjects);
     if let Some(requirement) = &study.requirement {
         let (tables, notes) = requirement::requirement(&scene, &sources, &contributions, requirement);
         record.tables.extend(tables);
@@ -136,7 +138,7 @@ pub fn run(scenario: &Scenario, study: &Budget, context: &Context) -> Result<Rec
     if scenario.output.formats.png || scenario.output.formats.svg {
         let early = scene.beginning();
         let beginning = Beginning { scene: &early, contributions: &linear(&early, &sources)? };
-        record.figures = figures::figures(&scenario.title, &scene, &contributions, &beginning);
+        record.figures = figures::figures(&scenario.title, &subjects, &scene, &contributions, &beginning);
     }
     Ok(record)
 }

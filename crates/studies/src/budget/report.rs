@@ -7,15 +7,10 @@ use super::agreement::Agreement;
 use super::radius::{horizontal, radius, space, spherical};
 use super::scene::Scene;
 use super::source::{self, Nine};
+use super::subject::{share, size, unit, words, written};
 use super::{BELIEVED, Contribution, TOTAL, Way};
 use crate::record::{Cell, Table, columns};
-
-/// Columns of the summary: one standard deviation of each source at the end.
-const SUMMARY: [&str; 8] =
-    ["source", "north_m", "east_m", "horizontal_m", "share_percent", "cep_m", "r95_m", "heading_arcmin"];
-
-/// What it has besides where the vertical channel is not held.
-const IN_SPACE: [&str; 3] = ["down_m", "sep_m", "spherical_r95_m"];
+use crate::scenario::Required;
 
 /// Everything that every way says.
 pub fn table(scene: &Scene, contributions: &[Contribution]) -> Table {
@@ -30,7 +25,7 @@ pub fn table(scene: &Scene, contributions: &[Contribution]) -> Table {
                     vec![scene.time(scene.rows[row]).into(), c.name.as_str().into(), said.way.name().into()];
                 cells.extend((0..9).map(|k| Cell::from(sigma(p, k))));
                 let size = plane.trace().max(0.0).sqrt();
-                let shares = [share(p, &total[row]), heading_share(p, &total[row])];
+                let shares = [Required::Horizontal, Required::Heading].map(|of| share(of, p, &total[row]));
                 let radii = [0.5, 0.95].map(|p| radius(&plane, p));
                 let in_space = if scene.vertical == Vertical::Held {
                     radii
@@ -46,45 +41,78 @@ pub fn table(scene: &Scene, contributions: &[Contribution]) -> Table {
     table
 }
 
-/// The end of the budget, the largest first, and what a filter believes of it.
-pub fn summary(scene: &Scene, contributions: &[Contribution]) -> Table {
-    let held = scene.vertical == Vertical::Held;
-    let names = if held { SUMMARY.to_vec() } else { [&SUMMARY[..], &IN_SPACE].concat() };
+/// A column of the summary and its number.
+type Column = (&'static str, fn(&Nine, &Nine) -> f64);
+
+/// Columns of the summary: one standard deviation of each source at the end, and its share of the variance of `total`. What leads
+/// stands first.
+fn columns_of(lead: Required, held: bool) -> Vec<Column> {
+    let heading: [Column; 2] = [
+        ("heading_arcmin", |p, _| size(Required::Heading, p) * unit(Required::Heading).per_si),
+        ("heading_share_percent", |p, total| 100.0 * share(Required::Heading, p, total)),
+    ];
+    let position: [Column; 6] = [
+        ("horizontal_m", |p, _| size(Required::Horizontal, p)),
+        ("horizontal_share_percent", |p, total| 100.0 * share(Required::Horizontal, p, total)),
+        ("north_m", |p, _| sigma(p, 0)),
+        ("east_m", |p, _| sigma(p, 1)),
+        ("cep_m", |p, _| radius(&horizontal(p), 0.5)),
+        ("r95_m", |p, _| radius(&horizontal(p), 0.95)),
+    ];
+    let in_space: [Column; 3] = [
+        ("down_m", |p, _| sigma(p, 2)),
+        ("sep_m", |p, _| spherical(&space(p), 0.5)),
+        ("spherical_r95_m", |p, _| spherical(&space(p), 0.95)),
+    ];
+    let in_space = if held { &in_space[..0] } else { &in_space[..] };
+    let first: &[Column] = match lead {
+        Required::Heading => return [&heading[..], &position, in_space].concat(),
+        Required::Horizontal => &[],
+        Required::Down => &[("down_share_percent", |p, total| 100.0 * share(Required::Down, p, total))],
+        Required::Velocity => &[
+            ("velocity_mps", |p, _| size(Required::Velocity, p)),
+            ("velocity_share_percent", |p, total| 100.0 * share(Required::Velocity, p, total)),
+        ],
+        Required::Tilt => &[
+            ("tilt_arcmin", |p, _| size(Required::Tilt, p) * unit(Required::Tilt).per_si),
+            ("tilt_share_percent", |p, total| 100.0 * share(Required::Tilt, p, total)),
+        ],
+    };
+    [first, &position, &heading, in_space].concat()
+}
+
+/// The end of the budget, the largest of what leads first, and what a filter believes of it.
+pub fn summary(scene: &Scene, contributions: &[Contribution], lead: Required) -> Table {
+    let columns = columns_of(lead, scene.vertical == Vertical::Held);
+    let names: Vec<&str> = ["source"].into_iter().chain(columns.iter().map(|(name, _)| *name)).collect();
     let mut table = Table::new("summary", &names, &["source"]);
     let total = total(contributions);
     let Some(last) = total.last() else { return table };
     let end = |c: &Contribution, way| c.of(way).and_then(|p| p.last().copied());
     let mut order: Vec<(&str, Nine)> =
         contributions.iter().filter_map(|c| Some((c.name.as_str(), end(c, Way::Covariance)?))).collect();
-    order.sort_by(|(_, a), (_, b)| horizontal(b).trace().total_cmp(&horizontal(a).trace()));
+    order.sort_by(|(_, a), (_, b)| size(lead, b).total_cmp(&size(lead, a)));
     order.extend(contributions.iter().filter_map(|c| Some((BELIEVED, end(c, Way::Sigma)?))));
     for (name, p) in order {
-        let plane = horizontal(&p);
-        let mut cells: Vec<Cell> = vec![
-            name.into(),
-            sigma(&p, 0).into(),
-            sigma(&p, 1).into(),
-            plane.trace().max(0.0).sqrt().into(),
-            (100.0 * share(&p, last)).into(),
-            radius(&plane, 0.5).into(),
-            radius(&plane, 0.95).into(),
-            (sigma(&p, 8).to_degrees() * 60.0).into(),
-        ];
-        if !held {
-            let in_space = [0.5, 0.95].map(|probability| spherical(&space(&p), probability));
-            cells.extend([sigma(&p, 2), in_space[0], in_space[1]].map(Cell::from));
-        }
+        let numbers = columns.iter().map(|(_, number)| Cell::from(number(&p, last)));
+        let cells: Vec<Cell> = [Cell::from(name)].into_iter().chain(numbers).collect();
         table.push(&cells);
     }
     table
 }
 
 /// What a reader of the numbers must know.
-pub fn notes(scene: &Scene, contributions: &[Contribution], agreement: Option<&Agreement>) -> Vec<String> {
-    let mut notes = vec![
+pub fn notes(
+    scene: &Scene,
+    contributions: &[Contribution],
+    agreement: Option<&Agreement>,
+    subjects: &[Required],
+) -> Vec<String> {
+    let mut notes: Vec<String> = belief(scene, contributions, subjects).into_iter().collect();
+    notes.extend([
         "Sources are independent of each other: variances sum to the total; a fixed value counts as one standard deviation of its size".into(),
         "cep_m and r95_m are the radii that hold 50 % and 95 % of plane normal errors of that covariance, sep_m and spherical_r95_m the same in space; horizontal_m is the root of the sum of both variances".into(),
-    ];
+    ]);
     if scene.study.alignment > 0 {
         notes.push(format!(
             "Tilt and heading at t = 0 are what each source did to an alignment at rest of {} s before (level by the specific force, north by the angular rate), so that they hang together with what it does after",
@@ -92,20 +120,30 @@ pub fn notes(scene: &Scene, contributions: &[Contribution], agreement: Option<&A
         ));
     }
     notes.extend(remarks(scene));
-    let believed = contributions.iter().find_map(|c| c.of(Way::Sigma)).and_then(|p| p.last());
-    if let (Some(believed), Some(truth)) = (believed, total(contributions).last()) {
-        let size = |p: &Nine| horizontal(p).trace().max(0.0).sqrt();
-        notes.push(format!(
-            "The filter takes its horizontal error at the end to be {:.4} m, its true standard deviation is {:.4} m ({:.3} times as much); heading {:.4} and {:.4} arcmin",
-            size(believed),
-            size(truth),
-            size(truth) / size(believed),
-            sigma(believed, 8).to_degrees() * 60.0,
-            sigma(truth, 8).to_degrees() * 60.0,
-        ));
-    }
     notes.extend(agreement.map(Agreement::note));
     notes
+}
+
+/// What a filter believes at the end beside what is true and what runs find, the errors that lead first.
+fn belief(scene: &Scene, contributions: &[Contribution], subjects: &[Required]) -> Option<String> {
+    let end = |way| contributions.iter().filter(|c| c.name == TOTAL).find_map(|c| c.of(way)?.last());
+    let (believed, truth, runs) = (end(Way::Sigma)?, end(Way::Covariance)?, end(Way::MonteCarlo));
+    let lead = *subjects.first()?;
+    let usual = [Required::Heading, Required::Horizontal];
+    let rest = subjects[1..].iter().chain(usual.iter().filter(|of| !subjects.contains(of)));
+    let said = |of: Required| {
+        let found = runs.map_or(String::new(), |p| {
+            format!(", {} by {} runs", written(of, size(of, p)), scene.study.runs)
+        });
+        format!(
+            "to be {}, it is {} ({:.3} times as much){found}",
+            written(of, size(of, believed)),
+            written(of, size(of, truth)),
+            size(of, truth) / size(of, believed),
+        )
+    };
+    let others: String = rest.map(|of| format!("; {} {}", words(*of), said(*of))).collect();
+    Some(format!("The filter takes its error of {} at the end {}{others} (1 σ)", words(lead), said(lead)))
 }
 
 /// What a filter, or the covariance through it, does not know of.
@@ -173,18 +211,6 @@ pub fn band(runs: u64) -> [f64; 2] {
 pub fn total(contributions: &[Contribution]) -> &[Nine] {
     let total = contributions.iter().find(|c| c.name == TOTAL);
     total.and_then(|c| c.of(Way::Covariance)).unwrap_or_default()
-}
-
-/// Part of the horizontal variance; zero at the start of a budget without initial position errors.
-pub fn share(p: &Nine, total: &Nine) -> f64 {
-    let whole = horizontal(total).trace();
-    if whole > 0.0 { horizontal(p).trace().max(0.0) / whole } else { 0.0 }
-}
-
-/// Part of the heading variance; zero where there is none.
-pub fn heading_share(p: &Nine, total: &Nine) -> f64 {
-    let whole = total[(8, 8)];
-    if whole > 0.0 { p[(8, 8)].max(0.0) / whole } else { 0.0 }
 }
 
 /// Standard deviation of error `k`; rounding below zero is zero.

@@ -1,11 +1,10 @@
 //! What a requirement asks of each source: which bind, and by how much each may grow.
 
-use nalgebra::Matrix2;
-
-use super::radius::{derivative, horizontal, may_grow, radius};
+use super::radius::{derivative, may_grow, radius};
 use super::report::total;
 use super::scene::Scene;
-use super::source::{Nine, Source};
+use super::source::Source;
+use super::subject::plane;
 use super::{Contribution, Way};
 use crate::{
     record::{Cell, Table, columns},
@@ -72,18 +71,6 @@ fn judge(
         });
     }
     Judged { of, limit, reached, parts }
-}
-
-/// The errors that are limited, in the plane; those along a line with nothing across it.
-fn plane(of: Required, p: &Nine) -> Matrix2<f64> {
-    let block = |k: usize| p.fixed_view::<2, 2>(k, k).into_owned();
-    match of {
-        Required::Horizontal => horizontal(p),
-        Required::Velocity => block(3),
-        Required::Tilt => block(6),
-        Required::Down => Matrix2::new(p[(2, 2)], 0.0, 0.0, 0.0),
-        Required::Heading => Matrix2::new(p[(8, 8)], 0.0, 0.0, 0.0),
-    }
 }
 
 fn table(scene: &Scene, sources: &[Source], at: f64, judged: &Judged) -> Table {
@@ -157,7 +144,7 @@ fn note(r: &Requirement, judged: &Judged) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::budget::{Said, TOTAL};
+    use crate::budget::{Nine, Said, TOTAL};
 
     /// 97.5 % quantile of the normal distribution.
     const Z: f64 = 1.959963984540054;

@@ -46,8 +46,8 @@ pub(super) struct Type {
 pub(super) trait Canvas {
     /// An open line.
     fn polyline(&mut self, line: &[Point], pen: Pen) -> Result<(), FigureError>;
-    /// The area between two lines over the same x, translucent. `band` is `(x, y_top, y_bottom)`.
-    fn band(&mut self, band: &[(f64, f64, f64)], colour: Colour) -> Result<(), FigureError>;
+    /// The area between two lines over the same x, translucent or opaque (1). `band` is `(x, y_top, y_bottom)`.
+    fn band(&mut self, band: &[(f64, f64, f64)], colour: Colour, opacity: f64) -> Result<(), FigureError>;
     /// A filled disc.
     fn disc(&mut self, centre: Point, radius: f64, colour: Colour) -> Result<(), FigureError>;
     /// A filled rectangle.
@@ -56,5 +56,5 @@ pub(super) trait Canvas {
     fn text(&mut self, text: &str, kind: Type, at: Point) -> Result<(), FigureError>;
 }
 
-/// Opacity of bands.
+/// Opacity of bands that lie on others.
 pub(super) const BAND_OPACITY: f64 = 0.22;

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::canvas::{Anchor, Canvas, Pen, Point, Type};
+use super::canvas::{Anchor, BAND_OPACITY, Canvas, Pen, Point, Type};
 use super::map::{self, Map};
 use super::ticks::{Ticks, ticks};
 use super::{Axis, Colour, Data, Figure, FigureError, Panel, Scale, Style, decimate, font, legend};
@@ -15,6 +15,8 @@ const TICK: f64 = 10.0;
 /// Line height per em size.
 const LEADING: f64 = 1.3;
 const LINE_WIDTH: f64 = 1.4;
+/// Width of the white line between opaque bands.
+const EDGE_WIDTH: f64 = 0.7;
 /// Line width of noise, which covers most of its panel.
 const DENSE_WIDTH: f64 = 0.7;
 /// Points between two ticks, at least.
@@ -105,6 +107,7 @@ pub(super) fn draw(figure: &Figure, canvas: &mut dyn Canvas) -> Result<(), Figur
     for (k, place) in placed.iter().enumerate() {
         grid(canvas, &x, &x_ticks, place)?;
         curves(canvas, figure, &x, place)?;
+        foot(canvas, &x, place)?;
         axes(canvas, &x, &x_ticks, place, k + 1 == placed.len())?;
         let label = label_lines(place.panel);
         let middle = 0.5 * (place.y.points[0] + place.y.points[1]);
@@ -172,11 +175,23 @@ fn grid(canvas: &mut dyn Canvas, x: &Map, x_ticks: &Ticks, place: &Placed) -> Re
     }
     for (v, _) in &place.ticks.major {
         if let Some(at) = place.y.at(*v) {
-            let colour = if *v == 0.0 { ZERO } else { GRID };
+            // Of an axis of rows, 0 is the first of them.
+            let colour = if *v == 0.0 && place.panel.y.names.is_empty() { ZERO } else { GRID };
             canvas.polyline(&[(left, at), (right, at)], Pen::solid(0.6, colour))?;
         }
     }
     Ok(())
+}
+
+/// Of rows, the line that their bars start from.
+fn foot(canvas: &mut dyn Canvas, x: &Map, place: &Placed) -> Result<(), FigureError> {
+    match x.at(0.0) {
+        Some(at) if !place.panel.y.names.is_empty() && x.low < 0.0 && x.high > 0.0 => {
+            let [bottom, top] = place.y.points;
+            canvas.polyline(&[(at, top), (at, bottom)], Pen::solid(0.9, AXES))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn curves(canvas: &mut dyn Canvas, figure: &Figure, x: &Map, place: &Placed) -> Result<(), FigureError> {
@@ -190,7 +205,7 @@ fn curves(canvas: &mut dyn Canvas, figure: &Figure, x: &Map, place: &Placed) -> 
         if let Data::Band(band) = &series.data {
             let (colour, _) = legend::look(figure, series, k);
             for piece in band_pieces(band, x, y) {
-                canvas.band(&piece, colour)?;
+                area(canvas, &piece, colour, series.solid)?;
             }
         }
     }
@@ -207,6 +222,21 @@ fn curves(canvas: &mut dyn Canvas, figure: &Figure, x: &Map, place: &Placed) -> 
         }
     }
     Ok(())
+}
+
+/// A band; an opaque one has an edge, so that those of like colours are told apart.
+pub(super) fn area(
+    canvas: &mut dyn Canvas,
+    piece: &[(f64, f64, f64)],
+    colour: Colour,
+    solid: bool,
+) -> Result<(), FigureError> {
+    if !solid {
+        return canvas.band(piece, colour, BAND_OPACITY);
+    }
+    canvas.band(piece, colour, 1.0)?;
+    let edge: Vec<Point> = piece.iter().map(|&(x, top, _)| (x, top)).collect();
+    canvas.polyline(&edge, Pen::solid(EDGE_WIDTH, Colour(255, 255, 255)))
 }
 
 /// A line in its style; a single point is shown as a dot.

@@ -20,6 +20,7 @@ pub(super) struct Entry {
     pub colour: Colour,
     pub style: Option<Style>,
     pub band: bool,
+    pub solid: bool,
 }
 
 /// Where the legend goes, with the entries placed in rows.
@@ -68,7 +69,8 @@ fn entries(figure: &Figure) -> Vec<Entry> {
                 }
                 None => {
                     let style = (!band).then_some(style);
-                    entries.push(Entry { label: series.label.clone(), colour, style, band });
+                    let (label, solid) = (series.label.clone(), series.solid);
+                    entries.push(Entry { label, colour, style, band, solid });
                 }
             }
         }
@@ -175,10 +177,8 @@ const KIND: Type =
 fn sample(canvas: &mut dyn Canvas, entry: &Entry, (x, y): Point, room: f64) -> Result<(), FigureError> {
     let middle = y + 0.5 * ROW;
     if entry.band {
-        canvas.band(
-            &[(x, middle - 4.5, middle + 4.5), (x + SAMPLE, middle - 4.5, middle + 4.5)],
-            entry.colour,
-        )?;
+        let ends = [x, x + SAMPLE].map(|x| (x, middle - 4.5, middle + 4.5));
+        super::chart::area(canvas, &ends, entry.colour, entry.solid)?;
     }
     if let Some(style) = entry.style {
         super::chart::stroke(canvas, &[(x, middle), (x + SAMPLE, middle)], style, entry.colour)?;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use plotters::prelude::{BitMapBackend, Color, DrawingBackend, RGBColor};
 
-use super::canvas::{Anchor, BAND_OPACITY, Canvas, Pen, Point, Type};
+use super::canvas::{Anchor, Canvas, Pen, Point, Type};
 use super::{Colour, FigureError, PIXELS_PER_POINT, decimate, font};
 
 /// Drawn pixels per side of a pixel of the file.
@@ -155,7 +155,7 @@ impl Canvas for Raster<'_> {
         decimate::dashes(line, pen.pattern).iter().try_for_each(|dash| self.solid(dash, pen))
     }
 
-    fn band(&mut self, band: &[(f64, f64, f64)], colour: Colour) -> Result<(), FigureError> {
+    fn band(&mut self, band: &[(f64, f64, f64)], colour: Colour, opacity: f64) -> Result<(), FigureError> {
         // Column by column, so that no pixel is covered twice where two pieces meet.
         for pair in band.windows(2) {
             let ((x0, top0, low0), (x1, top1, low1)) = (pair[0], pair[1]);
@@ -166,7 +166,7 @@ impl Canvas for Raster<'_> {
                 let u = (f64::from(k) + 0.5 - from) / (to - from);
                 let (top, low) = (top0 + u * (top1 - top0), low0 + u * (low1 - low0));
                 let column = (f64::from(k), f64::from(k) + 1.0);
-                self.fill(column, (top * self.scale, low * self.scale), rgb(colour), BAND_OPACITY)?;
+                self.fill(column, (top * self.scale, low * self.scale), rgb(colour), opacity)?;
             }
         }
         Ok(())

@@ -37,24 +37,32 @@ pub struct Series {
     pub style: Option<Style>,
     /// Colour; `None` takes the next of the palette, the same in all panels for the same label.
     pub colour: Option<Colour>,
+    /// Of a band: opaque, with an edge, as one of several that are stacked; else what lies below it can be seen.
+    pub solid: bool,
 }
 
 impl Series {
     /// A solid line through `points`.
     pub fn line(label: impl Into<String>, points: impl IntoIterator<Item = [f64; 2]>) -> Self {
         let data = Data::Points(points.into_iter().collect());
-        Series { label: label.into(), data, style: None, colour: None }
+        Series { label: label.into(), data, style: None, colour: None, solid: false }
     }
 
     /// The area between `low` and `high` of `[x, low, high]`.
     pub fn band(label: impl Into<String>, band: impl IntoIterator<Item = [f64; 3]>) -> Self {
         let data = Data::Band(band.into_iter().collect());
-        Series { label: label.into(), data, style: None, colour: None }
+        Series { label: label.into(), data, style: None, colour: None, solid: false }
     }
 
     /// The series in another line style.
     pub fn style(mut self, style: Style) -> Self {
         self.style = Some(style);
+        self
+    }
+
+    /// The band as an opaque area.
+    pub fn solid(mut self) -> Self {
+        self.solid = true;
         self
     }
 

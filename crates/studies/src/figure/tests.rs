@@ -40,12 +40,8 @@ fn series() -> impl Strategy<Value = Series> {
     ];
     let points = proptest::collection::vec([awkward(), awkward()], 0..20).prop_map(Data::Points);
     let band = proptest::collection::vec([awkward(), awkward(), awkward()], 0..20).prop_map(Data::Band);
-    ("[a-z.]{0,30}", prop_oneof![points, band], style).prop_map(|(label, data, style)| Series {
-        label,
-        data,
-        style,
-        colour: None,
-    })
+    let parts = ("[a-z.]{0,30}", prop_oneof![points, band], style, any::<bool>());
+    parts.prop_map(|(label, data, style, solid)| Series { label, data, style, colour: None, solid })
 }
 
 fn figure() -> impl Strategy<Value = Figure> {
@@ -180,4 +176,33 @@ fn units_follow_the_size_of_the_numbers() {
     assert_eq!(arcmin.symbol, "arcmin");
     // A full circle has 21 600 arcmin.
     assert!((arcmin.per_si * std::f64::consts::TAU - 21_600.0).abs() < 1e-9);
+}
+
+/// Bars start from x = 0; the first row, which is at y = 0, has no axis of its own. Grey `b0b0b0` is that of zero lines, `404040`
+/// that of axes.
+#[test]
+fn bars_stand_on_x_zero() {
+    let rows = |x: Axis| {
+        let panel = Panel::new(Axis::rows(vec!["a".into(), "b".into()]))
+            .with(Series::band("", [[-1.0, -0.4, 0.4], [1.0, -0.4, 0.4]]).solid());
+        Figure::new("t", x).panel(panel).to_svg().unwrap().to_lowercase()
+    };
+    // Lines straight down that are longer than a tick.
+    let down = |svg: &str| {
+        let axes = svg.lines().filter(|line| line.contains("#404040"));
+        let points = axes.filter_map(|line| line.split("points=\"").nth(1)?.split('"').next());
+        let lines = points.filter_map(|points| {
+            let numbers: Vec<f64> = points.split([',', ' ']).filter_map(|x| x.parse().ok()).collect();
+            <[f64; 4]>::try_from(numbers).ok()
+        });
+        lines.filter(|[x0, y0, x1, y1]| x0 == x1 && (y1 - y0).abs() > 1000.0).count()
+    };
+    let across = rows(Axis::linear("x").from_to(-1.5, 1.5));
+    assert!(!across.contains("b0b0b0"), "a zero line through the first bar");
+    assert_eq!(down(&across), 1);
+    assert_eq!(down(&rows(Axis::linear("x").from_to(0.5, 1.5))), 0);
+    let solid = Figure::new("t", Axis::linear("x")).panel(
+        Panel::new(Axis::linear("y")).with(Series::band("a", [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0]]).solid()),
+    );
+    assert!(solid.to_svg().unwrap().contains("<polygon opacity=\"1\""));
 }

@@ -6,7 +6,7 @@ use plotters::prelude::{
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontDesc, TextStyle};
 
-use super::canvas::{Anchor, BAND_OPACITY, Canvas, Pen, Point, Type};
+use super::canvas::{Anchor, Canvas, Pen, Point, Type};
 use super::{Colour, FigureError, font};
 
 /// Grid steps per point.
@@ -77,10 +77,10 @@ impl Canvas for Vector<'_> {
         self.0.draw_path(line.iter().map(|&p| on_grid(p)), &style).map_err(refused)
     }
 
-    fn band(&mut self, band: &[(f64, f64, f64)], colour: Colour) -> Result<(), FigureError> {
+    fn band(&mut self, band: &[(f64, f64, f64)], colour: Colour, opacity: f64) -> Result<(), FigureError> {
         let there = band.iter().map(|&(x, top, _)| on_grid((x, top)));
         let back = band.iter().rev().map(|&(x, _, low)| on_grid((x, low)));
-        self.0.fill_polygon(there.chain(back), &rgb(colour).mix(BAND_OPACITY)).map_err(refused)
+        self.0.fill_polygon(there.chain(back), &rgb(colour).mix(opacity)).map_err(refused)
     }
 
     fn disc(&mut self, centre: Point, radius: f64, colour: Colour) -> Result<(), FigureError> {

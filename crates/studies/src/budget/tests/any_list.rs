@@ -9,7 +9,10 @@ use super::aided::driven;
 use super::responses::{half_difference, missile, off};
 use super::*;
 use crate::trajectory::TableTurns;
-use crate::{Scenario, scenario::Study};
+use crate::{
+    Scenario,
+    scenario::{Required, Study},
+};
 
 /// The shipped list of every term, on its rate table and under its temperature. A budget refuses the table, which mounts the
 /// instrument anew after a third of the time; until then it is a motion like others.
@@ -184,7 +187,8 @@ fn what_a_filter_leaves_out_is_said() {
     let filter = study.filter.as_mut().unwrap();
     knows.into_iter().for_each(|known| filter.spec.push(known).unwrap());
     let scene = Scene::new(&study, Some(60.0));
-    let notes = report::notes(&scene, &linear(&scene, &sources(&study)).unwrap(), None);
+    let notes =
+        report::notes(&scene, &linear(&scene, &sources(&study)).unwrap(), None, &[Required::Horizontal]);
     let said = |words: &str| notes.iter().any(|note| note.contains(words));
     assert!(said("what it knows of gyro.thermal.constant does nothing"), "{notes:?}");
     assert!(said("it takes gyro.bias.quantization to be nothing"), "{notes:?}");

@@ -3,6 +3,7 @@
 mod aided;
 mod alignment;
 mod any_list;
+mod pictures;
 mod radius;
 mod responses;
 
