@@ -27,8 +27,10 @@ pub struct Filter<const N: usize> {
     pub(crate) taken_out: SVector<f64, N>,
     /// When a measurement is refused.
     pub gate: Gate,
-    /// Variances to which a [`Strategy`](super::strategy::Strategy) may inflate `p` at most; it never takes a variance below what it would have been
-    /// without it. At the start those of the start; `None` for no cap.
+    /// Variances of the prior beyond which no [`Strategy`](super::strategy::Strategy) may inflate `p`: with D of these on its
+    /// diagonal, D^-½ P D^-½ is kept from eigenvalues above one, or above what `p` had in that direction before. At the
+    /// start the filter's own; `None` for no cap. Where the filter's prior is itself too small, fading within it cannot help, and
+    /// the cap has to be one that is believed.
     pub cap: Option<[f64; N]>,
     tally: Tally,
 }

@@ -5,9 +5,11 @@
 //! was moved) and harms badly where R is (noise larger than said, or coloured); an adapted R does the opposite.
 //!
 //! **Windup.** Fading multiplies P along what no measurement observes, at every step, without end: 1.01 at 1 Hz is a factor
-//! of 20 in standard deviation after ten minutes. So inflation is capped by [`Filter::cap`], on by default.
+//! of 20 in standard deviation after ten minutes. So inflation is capped by the prior, [`Filter::cap`], on by default: as a
+//! matrix, not variance by variance, so that nothing winds up and what is observed fades as it would without.
 
 mod batch;
+mod cap;
 mod fading;
 mod forgetting;
 mod noise;
@@ -121,27 +123,21 @@ impl<const N: usize> Filter<N> {
         }
         let n = self.model.len();
         let moment = Moment { rows, n, innovation, carried, driven, r: observation.r };
-        let before: [f64; N] = core::array::from_fn(|k| self.p[(k, k)]);
+        let before = self.p;
         let r = strategy.before(&mut self.p, &moment);
-        self.hold(&before);
+        self.hold(&before, n);
         step.diffuse(&mut self.p);
         let outcome = self.update_rows(rows, observation.z, &r)?;
-        let before: [f64; N] = core::array::from_fn(|k| self.p[(k, k)]);
+        let before = self.p;
         strategy.after(&mut self.p, &outcome);
-        self.hold(&before);
+        self.hold(&before, n);
         Ok(outcome)
     }
 
-    /// Where inflation has brought a variance above both the cap and what it was `before`: that state's row and column
-    /// are scaled back, which leaves P positive.
-    fn hold(&mut self, before: &[f64; N]) {
-        let Some(cap) = &self.cap else { return };
-        let n = self.model.len();
-        let scale: [f64; N] = core::array::from_fn(|k| {
-            let (limit, now) = (cap[k].max(before[k]), self.p[(k, k)]);
-            if now > limit { libm::sqrt(limit / now) } else { 1.0 }
-        });
-        scale_by(&mut self.p, &scale, n);
+    fn hold(&mut self, before: &SMatrix<f64, N, N>, n: usize) {
+        if let Some(cap) = &self.cap {
+            cap::hold(&mut self.p, before, cap, n);
+        }
     }
 }
 

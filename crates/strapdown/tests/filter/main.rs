@@ -1,6 +1,7 @@
 //! The error-state filter against tables, closed forms, numeric derivatives and Monte Carlo.
 
 mod accumulated;
+mod cap;
 mod common;
 mod consistency;
 mod covariance_table;

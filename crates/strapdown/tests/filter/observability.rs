@@ -121,6 +121,60 @@ fn rank_with_vertical_channel_and_with_position() {
     assert_eq!(by_position.rank(), 9);
 }
 
+/// States of a model that are not zero in a combination, and their sizes.
+fn combination<const N: usize>(model: &Model<N>, parts: &[(&str, f64)]) -> SVector<f64, N> {
+    let mut v = SVector::zeros();
+    for (name, size) in parts {
+        v[model.index(name).unwrap_or_else(|| panic!("no state {name}"))] = *size;
+    }
+    v
+}
+
+/// v1, v2 and v3 of every model with biases of all axes, in its own order; with position also the one that turns with the
+/// meridian and the longitude, which velocity never sees. All stand still and are not measured, and there are as many as the rank
+/// says, so that they are all there are.
+#[test]
+fn null_vectors_of_twelve_states() {
+    let pva = at_rest(LAT, 0.0);
+    let g = GRAVITY.gravity_t(pva.position)[2];
+    let o = schuler_frames::wgs84::OMEGA;
+    let (s, c) = LAT.sin_cos();
+    let [acc_x, acc_y] = ["accel.bias.constant.x", "accel.bias.constant.y"];
+    let [gyro_x, gyro_y, gyro_z] = ["gyro.bias.constant.x", "gyro.bias.constant.y", "gyro.bias.constant.z"];
+    let three = [
+        vec![("phi_n", 1.0), (acc_y, g), ("phi_d", -s / c)],
+        vec![("phi_d", 1.0), (gyro_y, o * c)],
+        vec![("phi_e", 1.0), (acc_x, -g), (gyro_x, -o * s), (gyro_z, -o * c)],
+    ];
+    let r_m = schuler_frames::wgs84::r_m(s);
+    let by_velocity = [vec![("dr_e", 1.0)], vec![("dr_n", r_m), ("phi_e", -1.0), (acc_x, g)]];
+    let way = IntegratedVelocity {
+        integral: schuler_frames::Vec3::ZERO,
+        sigma: 0.01,
+        axes: measurement::HORIZONTAL,
+    };
+    let way = way.observe(&Now::at(&pva));
+
+    let check = |model: &Model<12>, observation: &Observation, vectors: &[Vec<(&str, f64)>]| {
+        let step = at_rest_step(model, &pva, 1.0);
+        let p0 = model.p0(&SIGMAS).unwrap();
+        for parts in vectors {
+            let v = combination(model, parts);
+            let moved = step.phi() * v - v;
+            let unit = (0..12).map(|k| v[k].abs() / p0[(k, k)].sqrt()).fold(0.0, f64::max);
+            for k in 0..12 {
+                let off = moved[k] / p0[(k, k)].sqrt() / unit;
+                assert!(off.abs() < 1e-8, "{parts:?}: {} {off:e}", model.name(k));
+            }
+        }
+        assert_eq!(observed(model, &[0.0], observation).rank(), 12 - vectors.len());
+    };
+    let still = still(0.01, measurement::HORIZONTAL);
+    let with_position = Model::new(Form::Phi, NavStates::HELD, &ten(&biases())).unwrap();
+    check(&with_position, &way, &three);
+    check(&with_position, &still, &[&three[..], &by_velocity[..]].concat());
+}
+
 /// P tends to N (N' P0⁻¹ N)⁻¹ N'; the numbers are those of 40-digit arithmetic for these priors (1, 1, 5 deg; 50 µg;
 /// 0.01 deg/h) at 45 deg.
 #[test]
