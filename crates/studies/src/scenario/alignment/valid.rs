@@ -116,7 +116,7 @@ pub struct FilterSettings {
     pub coloured: Option<(f64, f64)>,
     /// Whether it measures the position in place of the velocity.
     pub position: bool,
-    /// Tilt and heading (rad) above which fading never goes; those of the start when absent.
+    /// Tilt and heading (rad) of the prior that caps fading; those of the start when absent.
     pub bound: Option<[f64; 2]>,
     /// Form of its error dynamics.
     pub form: Form,
@@ -129,7 +129,7 @@ pub struct FilterSettings {
 pub struct Strategy {
     /// What is adapted.
     pub kind: StrategyKind,
-    /// Whether no variance is faded above that of the start.
+    /// Whether fading is capped by the prior.
     pub cap: bool,
 }
 

@@ -149,7 +149,8 @@ pub struct Filter {
     pub measurement: Option<Measurement>,
     /// Form of its error dynamics; `phi` when absent.
     pub form: Option<Form>,
-    /// Standard deviations of the attitude above which fading never goes; those of the start when absent.
+    /// Standard deviations of the attitude in the prior that caps fading, where that of the filter itself (`tilt`, `heading`, which
+    /// holds when absent) is not to be believed.
     pub bound: Option<At<CoarseSigma>>,
     /// How it adapts; not at all when absent.
     pub strategy: Option<At<Strategy>>,
@@ -203,7 +204,7 @@ pub enum Strategy {
 pub struct Fading {
     /// Factor on the covariance a measurement, a little above 1.
     pub factor: Quantity,
-    /// Whether no variance is faded above that of the start; true when absent.
+    /// Whether fading is capped by the prior (and `bound`); true when absent.
     pub cap: Option<bool>,
 }
 
@@ -221,7 +222,7 @@ pub struct BatchNoise {
 pub struct Windowed {
     /// Probability with which a consistent filter would be taken for a wrong one; `0.1 %` when absent.
     pub gate: Option<Quantity>,
-    /// Whether no variance is faded above that of the start; true when absent.
+    /// Whether fading is capped by the prior (and `bound`); true when absent.
     pub cap: Option<bool>,
 }
 
@@ -231,7 +232,7 @@ pub struct Windowed {
 pub struct StrongTracking {
     /// Softening factor, 1 or more.
     pub beta: Quantity,
-    /// Whether no variance is faded above that of the start; true when absent.
+    /// Whether fading is capped by the prior (and `bound`); true when absent.
     pub cap: Option<bool>,
 }
 
