@@ -318,8 +318,9 @@ pub mod columns {
     ];
     /// `agreement.csv`: variances of the last row by runs beside the covariance: how many were judged, how many are outside their
     /// 99 % band, the least and the largest over the covariance; the probability (at most) that chance leaves one as far out as
-    /// the furthest, and that so many sources have one outside. The last row is of all together.
-    pub const AGREEMENT: [&str; 8] = [
+    /// the furthest, and that so many sources have one outside; and by how much columns are off covariance at most, at any row and
+    /// of any error, in standard deviations of the total. The last row is of all together.
+    pub const AGREEMENT: [&str; 9] = [
         "t_s",
         "source",
         "judged_count",
@@ -328,6 +329,7 @@ pub mod columns {
         "largest_ratio",
         "worst_chance_ratio",
         "count_chance_ratio",
+        "columns_off_ratio",
     ];
 
     /// [`REQUIREMENT`] with the names of radius and derivative in the unit of what is required.
