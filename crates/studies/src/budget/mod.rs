@@ -90,6 +90,12 @@ const BELIEVED: &str = "total, as the filter believes";
 /// Samples of a motion that Monte Carlo runs keep in memory.
 const MOST_SAMPLES: u64 = 2_000_000;
 
+/// Latitude beyond which north and heading have no meaning, deg: what is small in the local level is large there.
+const NEAREST_POLE: f64 = 89.99;
+
+/// Rows times sources, at most: radii of so many take minutes.
+const MOST_CELLS: usize = 300_000;
+
 /// Runs a budget study.
 ///
 /// Each component of an error source, each initial error and each component of the noise of a measurement is a row, of one
@@ -200,6 +206,27 @@ fn possible(scenario: &Scenario, scene: &Scene, sources: &[Source]) -> Result<()
             .path("imu")
             .expected("error sources, or `budget: { initial_sigmas: … }`")
             .example("gyro: [{ bias: { constant: { sigma: 0.01 deg/h } } }]")
+            .into());
+    }
+    let lat = scene.study.start.position.lat.to_degrees();
+    if lat.abs() > NEAREST_POLE {
+        return Err(Diagnostic::new(&scenario.file, "neither north nor heading at a pole")
+            .path("start.position.lat")
+            .expected(format!("a latitude within {NEAREST_POLE} deg"))
+            .found(format!("{lat} deg"))
+            .into());
+    }
+    let cells = scene.rows.len() * (sources.len() + 1);
+    if cells > MOST_CELLS {
+        return Err(Diagnostic::new(&scenario.file, "more rows than a budget can keep")
+            .path("output.every")
+            .expected(format!(
+                "at most {} rows of {} sources and their total",
+                MOST_CELLS / (sources.len() + 1),
+                sources.len()
+            ))
+            .found(format!("{} rows", scene.rows.len()))
+            .example("output: { every: 10 s }")
             .into());
     }
     if let Some(fault) = scene.study.filter.as_ref().and_then(|filter| aided::too_large(scene, filter)) {
