@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args as ClapArgs, Parser, Subcommand};
 use schuler_studies::monte_carlo::Part;
 
-/// Strapdown-navigation error propagation: IMU error sources, mechanization, drift, alignment.
+/// Strapdown-navigation error propagation: IMU error sources, mechanization, drift, alignment, error budgets, Monte Carlo.
 #[derive(Debug, Parser)]
 #[command(name = "schuler", version, about, max_term_width = 100)]
 #[command(after_help = "Exit codes: 0 success, 1 an `expect` of a scenario failed, 2 bad input.")]
@@ -19,7 +19,8 @@ pub struct Args {
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Run scenarios; write tables, figures and a summary of each into a folder. `study:` in a scenario says what is done:
-    /// `simulate` makes logs of a motion, `navigate` follows logs.
+    /// `simulate` makes logs of a motion, `navigate` follows logs, `drift` and `budget` say what each error source does,
+    /// `monte_carlo` makes runs of them, `align` aligns, `imu` and `allan` look at sensors alone.
     Run(RunArgs),
     /// Merge parts of a Monte Carlo that were run anywhere, in any order, into the result of one process.
     Merge(MergeArgs),

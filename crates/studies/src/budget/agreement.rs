@@ -1,8 +1,9 @@
-//! Runs beside the covariance: how many of the variances are outside their band, and what chance leaves outside.
+//! Runs beside the covariance: how many of the variances are outside their band, and what chance leaves outside; and columns
+//! beside the covariance.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-use super::report::{band, total};
+use super::report::{band, sigma, total};
 use super::scene::Scene;
 use super::source::{Kind, Source};
 use super::{Contribution, Way};
@@ -21,7 +22,10 @@ const OUTSIDE: f64 = 0.01;
 /// The row of all others.
 const ALL: &str = "all";
 
-/// Variances of the last row that runs have found, over those of the covariance.
+/// Part of the total in standard deviation by which columns may be off the covariance: no picture and no decision would show it.
+const OFF: f64 = 1e-4;
+
+/// Variances of the last row that runs have found, over those of the covariance, and columns beside it.
 pub struct Agreement {
     runs: u64,
     /// Part of the total variance below which nothing is judged.
@@ -37,6 +41,8 @@ struct Row {
     /// Of each error that is judged.
     ratios: Vec<f64>,
     outside: usize,
+    /// How far columns are off the covariance, in standard deviations of the total; NaN where there are none.
+    off: f64,
     /// Numbers drawn for a run that its errors depend on: one of what is constant, whose errors all agree or all do not.
     /// None for the total, which has no draws of its own.
     draws: Option<Draws>,
@@ -49,7 +55,7 @@ enum Draws {
 }
 
 impl Agreement {
-    /// What there is to judge, and the horizontal error `own` (m) of a run in which nothing is wrong; `None` without runs.
+    /// What there is to judge, and the horizontal error `own` (m) of a run in which nothing is wrong; `None` without rows.
     pub fn new(
         scene: &Scene,
         sources: &[Source],
@@ -58,20 +64,21 @@ impl Agreement {
     ) -> Option<Agreement> {
         let runs = scene.study.runs;
         let whole = total(contributions).last()?;
-        let [low, high] = band(runs);
         let least = if scene.study.filter.is_some() { JUDGED_AIDED } else { JUDGED };
         let row = |(k, c): (usize, &Contribution)| {
             let p = c.of(Way::Covariance)?.last()?;
-            let q = c.of(Way::MonteCarlo)?.last()?;
             let judged = (0..9).filter(|&k| p[(k, k)] > least * whole[(k, k)]);
-            let ratios: Vec<f64> = judged.map(|k| q[(k, k)] / p[(k, k)]).collect();
-            let outside = ratios.iter().filter(|ratio| !(low..=high).contains(*ratio)).count();
+            let found = c.of(Way::MonteCarlo).and_then(|q| q.last());
+            let ratios: Vec<f64> =
+                found.map_or(Vec::new(), |q| judged.map(|k| q[(k, k)] / p[(k, k)]).collect());
+            let outside = outside(&ratios, runs);
+            let off = off(c, contributions);
             let draws = sources.get(k).map(|source| match source.kind {
                 Kind::Initial(_) => Draws::One,
                 Kind::Sensor(_) if source.size().is_some() => Draws::One,
                 Kind::Sensor(_) | Kind::Noise(_) => Draws::Many,
             });
-            Some(Row { name: c.name.clone(), ratios, outside, draws })
+            Some(Row { name: c.name.clone(), ratios, outside, off, draws })
         };
         let rows: Vec<Row> = contributions.iter().enumerate().filter_map(row).collect();
         (!rows.is_empty()).then_some(Agreement { runs, least, own, rows })
@@ -81,8 +88,8 @@ impl Agreement {
     pub fn table(&self, scene: &Scene) -> Table {
         let mut table = Table::new("agreement", &columns::AGREEMENT, &["source"]);
         let t = scene.rows.last().map_or(0.0, |&k| scene.time(k));
-        let mut push = |name: &str, ratios: &[f64], outside: usize, chance: f64| {
-            let cells: [Cell; 8] = [
+        let mut push = |name: &str, ratios: &[f64], outside: usize, chance: f64, off: f64| {
+            let cells: [Cell; 9] = [
                 t.into(),
                 name.into(),
                 (ratios.len() as f64).into(),
@@ -91,20 +98,40 @@ impl Agreement {
                 ratios.iter().copied().fold(f64::NAN, f64::max).into(),
                 self.worst(ratios).into(),
                 chance.into(),
+                off.into(),
             ];
             table.push(&cells);
         };
         for row in &self.rows {
             let chance = row.draws.map_or(f64::NAN, |_| if row.outside > 0 { row.chance() } else { 1.0 });
-            push(&row.name, &row.ratios, row.outside, chance);
+            let chance = if row.ratios.is_empty() { f64::NAN } else { chance };
+            push(&row.name, &row.ratios, row.outside, chance, row.off);
         }
         let all: Vec<f64> = self.rows.iter().flat_map(|row| row.ratios.iter().copied()).collect();
-        push(ALL, &all, self.outside(), self.chance());
+        let chance = if all.is_empty() { f64::NAN } else { self.chance() };
+        push(ALL, &all, self.outside(), chance, self.off());
         table
     }
 
-    /// In a sentence.
-    pub fn note(&self) -> String {
+    /// In sentences: of runs, where there are any, and of columns.
+    pub fn notes(&self) -> Vec<String> {
+        let off = self.off();
+        let columns = || {
+            let word = if off <= OFF { "they agree" } else { "NOT CONSISTENT" };
+            format!(
+                "Sensitivity columns of constant sources are off the covariance by {off:.1e} of the total standard deviation at most, at any time and of any error; {word}"
+            )
+        };
+        let runs = (self.runs > 0).then(|| self.note());
+        runs.into_iter().chain(off.is_finite().then(columns)).collect()
+    }
+
+    /// The largest by which columns are off; NaN without any.
+    pub fn off(&self) -> f64 {
+        self.rows.iter().map(|row| row.off).fold(f64::NAN, f64::max)
+    }
+
+    fn note(&self) -> String {
         let [low, high] = band(self.runs);
         let all: Vec<f64> = self.rows.iter().flat_map(|row| row.ratios.iter().copied()).collect();
         let (worst, chance) = (self.worst(&all), self.chance());
@@ -138,6 +165,9 @@ impl Agreement {
     /// Probability, at most, that one or more of so many ratios are as far from one as the furthest of them (Bonferroni: whatever
     /// hangs together).
     fn worst(&self, ratios: &[f64]) -> f64 {
+        if ratios.is_empty() {
+            return f64::NAN;
+        }
         let least = ratios.iter().map(|ratio| self.tail(*ratio)).fold(1.0, f64::min);
         (least * ratios.len() as f64).min(1.0)
     }
@@ -166,6 +196,28 @@ impl Row {
     }
 }
 
+/// How many ratios are outside the band of so many runs.
+fn outside(ratios: &[f64], runs: u64) -> usize {
+    if ratios.is_empty() {
+        return 0;
+    }
+    let [low, high] = band(runs);
+    ratios.iter().filter(|ratio| !(low..=high).contains(*ratio)).count()
+}
+
+/// By how much the columns of a source are off its covariance at most, over all rows and errors, in standard deviations of the
+/// total; NaN without columns.
+fn off(c: &Contribution, contributions: &[Contribution]) -> f64 {
+    let (Some(p), Some(q)) = (c.of(Way::Covariance), c.of(Way::Columns)) else { return f64::NAN };
+    let mut worst: f64 = 0.0;
+    for ((p, q), whole) in p.iter().zip(q).zip(total(contributions)) {
+        for k in (0..9).filter(|&k| whole[(k, k)] > 0.0) {
+            worst = worst.max((sigma(p, k) - sigma(q, k)).abs() / sigma(whole, k));
+        }
+    }
+    worst
+}
+
 /// Probability that `count` or more of independent events happen.
 fn at_least(count: usize, chances: impl Iterator<Item = f64>) -> f64 {
     // Of fewer than `count`, each number of them by itself.
@@ -184,13 +236,14 @@ fn at_least(count: usize, chances: impl Iterator<Item = f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::budget::{Nine, Said, TOTAL};
 
     fn agreement(runs: u64, rows: &[(&[f64], Option<Draws>)]) -> Agreement {
-        let [low, high] = band(runs);
         let row = |(ratios, draws): &(&[f64], Option<Draws>)| Row {
             name: String::new(),
             ratios: ratios.to_vec(),
-            outside: ratios.iter().filter(|r| !(low..=high).contains(*r)).count(),
+            outside: outside(ratios, runs),
+            off: f64::NAN,
             draws: *draws,
         };
         Agreement { runs, least: JUDGED, own: 0.0, rows: rows.iter().map(row).collect() }
@@ -212,6 +265,30 @@ mod tests {
         let a = agreement(100, &[]);
         for x in [0.67328, 1.40169] {
             assert!((a.tail(x) - 0.01).abs() < 2e-4, "{}", a.tail(x));
+        }
+    }
+
+    /// Columns that are off by more than a ten thousandth of the total say so; of sources without there is nothing to say.
+    #[test]
+    fn columns_off_are_told() {
+        let p = |sigma: f64| vec![Nine::identity() * (sigma * sigma)];
+        let said = |way, sigma| Said { way, first: 0, p: p(sigma) };
+        let all = |by_columns: f64| {
+            let columns = vec![said(Way::Covariance, 3.0), said(Way::Columns, by_columns)];
+            [
+                Contribution { name: "a".into(), said: columns },
+                Contribution { name: "b".into(), said: vec![said(Way::Covariance, 4.0)] },
+                Contribution { name: TOTAL.into(), said: vec![said(Way::Covariance, 5.0)] },
+            ]
+        };
+        let contributions = all(3.1);
+        assert!((off(&contributions[0], &contributions) - 0.02).abs() < 1e-12);
+        assert!(off(&contributions[1], &contributions).is_nan());
+        let row = |off| Row { name: "a".into(), ratios: Vec::new(), outside: 0, off, draws: None };
+        for (worst, word) in [(0.02, "NOT CONSISTENT"), (1e-6, "they agree")] {
+            let rows = vec![row(worst), row(f64::NAN)];
+            let notes = Agreement { runs: 0, least: JUDGED, own: 0.0, rows }.notes();
+            assert!(notes.len() == 1 && notes[0].contains(word), "{notes:?}");
         }
     }
 

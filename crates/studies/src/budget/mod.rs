@@ -14,6 +14,7 @@ mod report;
 mod requirement;
 mod rounding;
 mod scene;
+mod shared;
 mod source;
 mod stepper;
 mod subject;
@@ -27,6 +28,7 @@ use crate::{Context, Diagnostic, Error, Scenario, record::Record, scenario::Budg
 use agreement::Agreement;
 use figures::Beginning;
 use scene::Scene;
+use shared::Shared;
 use source::{Nine, Source};
 
 /// A way in which a row is obtained.
@@ -87,6 +89,12 @@ const BELIEVED: &str = "total, as the filter believes";
 
 /// Samples of a motion that Monte Carlo runs keep in memory.
 const MOST_SAMPLES: u64 = 2_000_000;
+
+/// Latitude beyond which north and heading have no meaning, deg: what is small in the local level is large there.
+const NEAREST_POLE: f64 = 89.99;
+
+/// Rows times sources, at most: radii of so many take minutes.
+const MOST_CELLS: usize = 300_000;
 
 /// Runs a budget study.
 ///
@@ -149,25 +157,29 @@ pub fn run(scenario: &Scenario, study: &Budget, context: &Context) -> Result<Rec
 /// A filter meets numbers that make no sense.
 fn linear(scene: &Scene, sources: &[Source]) -> Result<Vec<Contribution>, Error> {
     let square = |rows: &[[f64; 9]]| rows.iter().map(columns::covariance).collect::<Vec<_>>();
+    let shared = Shared::new(sources);
+    let firsts: Vec<Source> = shared.firsts.iter().map(|k| sources[*k].clone()).collect();
     let mut own = None;
     let (forward, responses, backward) = match &scene.study.filter {
         Some(filter) => {
-            let found = aided::linear(scene, filter, sources)?;
+            let found = aided::linear(scene, filter, &firsts)?;
             own = Some(Said { way: Way::Sigma, first: 0, p: found.own });
             (found.covariance, found.columns, found.adjoint)
         }
         None => (
-            covariance::covariance(scene, sources),
-            columns::responses(scene, sources),
-            covariance::adjoint(scene, sources),
+            covariance::covariance(scene, &firsts),
+            columns::responses(scene, &firsts),
+            covariance::adjoint(scene, &firsts),
         ),
     };
-    let all = sources.iter().zip(forward).zip(&responses).enumerate().map(|(k, ((source, p), response))| {
-        let mut said = vec![Said { way: Way::Covariance, first: 0, p }];
-        if !response.is_empty() {
-            said.push(Said { way: Way::Columns, first: 0, p: square(response) });
+    let all = sources.iter().zip(&shared.of).map(|(source, &(k, times))| {
+        let scaled = |p: &[Nine]| p.iter().map(|p| p * (times * times)).collect::<Vec<_>>();
+        let mut said = vec![Said { way: Way::Covariance, first: 0, p: scaled(&forward[k]) }];
+        if !responses[k].is_empty() {
+            said.push(Said { way: Way::Columns, first: 0, p: scaled(&square(&responses[k])) });
         }
-        said.push(Said { way: Way::Adjoint, first: scene.rows.len() - 1, p: vec![backward[k]] });
+        let last = scaled(&backward[k..=k]);
+        said.push(Said { way: Way::Adjoint, first: scene.rows.len() - 1, p: last });
         if let Some(response) = closed_form::response(scene, source) {
             said.push(Said { way: Way::Exact, first: 0, p: square(&response) });
         }
@@ -194,6 +206,27 @@ fn possible(scenario: &Scenario, scene: &Scene, sources: &[Source]) -> Result<()
             .path("imu")
             .expected("error sources, or `budget: { initial_sigmas: … }`")
             .example("gyro: [{ bias: { constant: { sigma: 0.01 deg/h } } }]")
+            .into());
+    }
+    let lat = scene.study.start.position.lat.to_degrees();
+    if lat.abs() > NEAREST_POLE {
+        return Err(Diagnostic::new(&scenario.file, "neither north nor heading at a pole")
+            .path("start.position.lat")
+            .expected(format!("a latitude within {NEAREST_POLE} deg"))
+            .found(format!("{lat} deg"))
+            .into());
+    }
+    let cells = scene.rows.len() * (sources.len() + 1);
+    if cells > MOST_CELLS {
+        return Err(Diagnostic::new(&scenario.file, "more rows than a budget can keep")
+            .path("output.every")
+            .expected(format!(
+                "at most {} rows of {} sources and their total",
+                MOST_CELLS / (sources.len() + 1),
+                sources.len()
+            ))
+            .found(format!("{} rows", scene.rows.len()))
+            .example("output: { every: 10 s }")
             .into());
     }
     if let Some(fault) = scene.study.filter.as_ref().and_then(|filter| aided::too_large(scene, filter)) {

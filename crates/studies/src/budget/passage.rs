@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use rayon::prelude::*;
 use schuler_frames::{B, Rot, T, Vec3};
-use schuler_imu::{Component, Input, Instrument, Spec, Truth as Seen};
+use schuler_imu::{Component, Input, Instrument, Motion as Sensed, Spec, Truth as Seen};
 use schuler_strapdown::{ErrorDynamics, Increments, Pva};
 
 use super::scene::{Scene, increments};
@@ -13,15 +13,50 @@ use super::source::Nine;
 /// 4 deg/s under 5 g it is right to 5e-8.
 const STEP: f64 = 0.1;
 
+/// Angle by which the attitude turns over a part of a sample at most, rad. The attitude in the middle of a part is that of the mean to
+/// 1/24 of its square, 1.5e-8: a filter that waits for a small velocity to tell a heading makes ten thousand times as much of it.
+const TURN: f64 = 0.0006;
+
+/// Parts of a sample, at most: beyond two degrees in one it is for the user to sample more often.
+const MOST_PARTS: f64 = 64.0;
+
 /// One sample of a motion.
 pub struct Sample {
-    /// The state at its end.
-    pub pva: Pva,
     /// What was seen, and that as increments.
     pub seen: Seen,
     pub increments: Increments,
+    /// The same in parts over which the attitude hardly turns.
+    pub parts: Vec<Part>,
     /// C_b^t at the two [nodes](ErrorDynamics::NODES).
     turned: [Matrix3<f64>; 2],
+}
+
+/// A part of a sample, for ways that know the attitude at the ends of a step alone.
+pub struct Part {
+    /// The state at its end.
+    pub pva: Pva,
+    /// What was seen in the whole sample, as rates: what is delivered is wrong by its mean over that.
+    pub seen: Seen,
+    pub increments: Increments,
+    /// Its length, s.
+    pub dt: f64,
+}
+
+impl Part {
+    fn all(scene: &Scene, sample: u64, seen: &Seen) -> Vec<Part> {
+        let whole = increments(seen, scene.dt);
+        let count = (whole.dtheta.norm() / TURN).ceil().clamp(1.0, MOST_PARTS) as u32;
+        let (begin, dt) = (scene.time(sample), scene.dt / f64::from(count));
+        let part = |j: u32| {
+            let t = begin + f64::from(j) * dt;
+            let increments = if count == 1 { whole } else { increments(&scene.truth.imu_truth(t, dt), dt) };
+            let omega = whole.dtheta * (1.0 / scene.dt);
+            let f = whole.dv * (1.0 / scene.dt);
+            let motion = Sensed::Rates { omega: omega.as_array(), f: f.as_array() };
+            Part { pva: scene.moment(t + dt).0, seen: Seen { motion, ..*seen }, increments, dt }
+        };
+        (0..count).map(part).collect()
+    }
 }
 
 impl Sample {
@@ -38,9 +73,9 @@ pub fn samples(scene: &Scene, begin: u64, end: u64) -> Vec<Sample> {
         .map(|k| {
             let (seen, t) = (scene.seen(k, 1), scene.time(k));
             Sample {
-                pva: scene.moment(scene.time(k + 1)).0,
                 seen,
                 increments: increments(&seen, scene.dt),
+                parts: Part::all(scene, k, &seen),
                 turned: ErrorDynamics::NODES.map(|node| attitude(&scene.moment(t + node * scene.dt).0)),
             }
         })

@@ -149,15 +149,9 @@ pub fn may_grow(p: &Matrix2<f64>, part: &Matrix2<f64>, probability: f64, limit: 
     if at(0.0) >= limit {
         return 0.0;
     }
-    let (mut low, mut high) = (0.0, 1.0);
-    while at(high) < limit {
-        low = high;
-        high *= 2.0;
-        if high > 1e9 {
-            return f64::INFINITY;
-        }
-    }
-    for _ in 0..50 {
+    // The part alone is never larger than with the rest.
+    let (mut low, mut high) = (0.0, limit / radius(part, probability));
+    for _ in 0..60 {
         let middle = 0.5 * (low + high);
         if at(middle) < limit { low = middle } else { high = middle }
     }

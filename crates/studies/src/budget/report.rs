@@ -120,7 +120,7 @@ pub fn notes(
         ));
     }
     notes.extend(remarks(scene));
-    notes.extend(agreement.map(Agreement::note));
+    notes.extend(agreement.map(Agreement::notes).unwrap_or_default());
     notes
 }
 

@@ -5,7 +5,7 @@ use schuler_imu::{Instrument, Truth as Seen};
 use schuler_strapdown::Pva;
 use schuler_strapdown::filter::{Accumulator, Form, Propagation};
 
-use super::passage::Sample;
+use super::passage::{Part, Sample};
 use super::rounding::Rounding;
 use super::scene::Scene;
 use super::source::{Joined, Joint, ROOM, Source};
@@ -93,8 +93,8 @@ impl<'a> Stepper<'a> {
             if let Some(rounding) = &self.rounding {
                 return rounding.along(scene, begin, samples);
             }
-            for Sample { pva, seen, increments, .. } in samples {
-                self.accumulator.step_seen(&self.model, pva, seen, increments, scene.dt);
+            for Part { pva, seen, increments, dt } in samples.iter().flat_map(|sample| &sample.parts) {
+                self.accumulator.step_seen(&self.model, pva, seen, increments, *dt);
             }
             return Step::Linear(Box::new(self.accumulator.close(&self.model)));
         }

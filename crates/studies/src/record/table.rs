@@ -320,8 +320,9 @@ pub mod columns {
     /// `requirement_horizontal.csv` and the like, one for each limit: the radius of the required probability, of a source alone
     /// and of all; its derivative by the relative size of the source and that over the radius; the factor by which the source
     /// may grow; and which number of the scenario that is, its SI unit, its value, and the value with which the requirement is
-    /// just met. Radius and derivative in metres, [metres a second or radians](required).
-    pub const REQUIREMENT: [&str; 10] = [
+    /// just met, the last also in the unit of a data sheet. All axes of an entry together are a row as well (`gyro.bias.constant`),
+    /// before the total. Radius and derivative in metres, [metres a second or radians](required).
+    pub const REQUIREMENT: [&str; 11] = [
         "t_s",
         "source",
         "radius_m",
@@ -332,11 +333,13 @@ pub mod columns {
         "unit",
         "value",
         "limit",
+        "limit_shown",
     ];
     /// `agreement.csv`: variances of the last row by runs beside the covariance: how many were judged, how many are outside their
     /// 99 % band, the least and the largest over the covariance; the probability (at most) that chance leaves one as far out as
-    /// the furthest, and that so many sources have one outside. The last row is of all together.
-    pub const AGREEMENT: [&str; 8] = [
+    /// the furthest, and that so many sources have one outside; and by how much columns are off covariance at most, at any row and
+    /// of any error, in standard deviations of the total. The last row is of all together.
+    pub const AGREEMENT: [&str; 9] = [
         "t_s",
         "source",
         "judged_count",
@@ -345,10 +348,11 @@ pub mod columns {
         "largest_ratio",
         "worst_chance_ratio",
         "count_chance_ratio",
+        "columns_off_ratio",
     ];
 
     /// [`REQUIREMENT`] with the names of radius and derivative in the unit of what is required.
-    pub const fn required(radius: &'static str, derivative: &'static str) -> [&'static str; 10] {
+    pub const fn required(radius: &'static str, derivative: &'static str) -> [&'static str; 11] {
         let mut names = REQUIREMENT;
         names[2] = radius;
         names[3] = derivative;

@@ -224,8 +224,8 @@ fn together(study: &Budget, scene: &Scene) -> Vec<Nine> {
                 let count = some.len() as u64;
                 Propagation::exact(&model, &system, &scene.seen(0, count), scene.time(count))
             } else {
-                for s in &samples[some] {
-                    accumulator.step_seen(&model, &s.pva, &s.seen, &s.increments, scene.dt);
+                for s in samples[some].iter().flat_map(|s| &s.parts) {
+                    accumulator.step_seen(&model, &s.pva, &s.seen, &s.increments, s.dt);
                 }
                 accumulator.close(&model)
             };

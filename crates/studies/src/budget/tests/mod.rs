@@ -6,6 +6,8 @@ mod any_list;
 mod pictures;
 mod radius;
 mod responses;
+mod shared;
+mod shipped;
 
 use std::f64::consts::PI;
 
@@ -215,8 +217,8 @@ fn rows_of_a_flight_sum_to_one_covariance_of_everything() {
     let mut accumulator = Accumulator::new(&model, scene.dynamics(), &scene.moment(0.0).0);
     let mut together = vec![Nine::from_fn(|i, j| p[(i, j)])];
     for [begin, end] in super::covariance::intervals(&scene) {
-        for s in super::passage::samples(&scene, begin, end) {
-            accumulator.step_seen(&model, &s.pva, &s.seen, &s.increments, scene.dt);
+        for s in super::passage::samples(&scene, begin, end).iter().flat_map(|s| &s.parts) {
+            accumulator.step_seen(&model, &s.pva, &s.seen, &s.increments, s.dt);
         }
         accumulator.close(&model).apply(&mut p);
         if scene.rows.contains(&end) {

@@ -115,3 +115,19 @@ fn curves_upon_each_other_are_seen() {
     assert_eq!(total.label, "total");
     assert_ne!(n.style, e.style);
 }
+
+/// Budgets that would have no end or no meaning say so.
+#[test]
+fn impossible_budgets_are_refused() {
+    let text = include_str!("../../../../../configs/budget_static.yaml");
+    let said = |set: &str| {
+        let made = Scenario::load("a.yaml", text, &[set.into()]);
+        made.and_then(|scenario| crate::run(&scenario, &Context::silent())).expect_err(set).to_string()
+    };
+    let pole = said("start.position.lat=90 deg");
+    assert!(pole.contains("neither north nor heading at a pole"), "{pole}");
+    let rows = said("duration=100000 h");
+    assert!(rows.contains("more rows than a budget can keep"), "{rows}");
+    let nothing = said("budget.requirement.probability=0 %");
+    assert!(nothing.contains("a radius that holds nothing") && nothing.contains("95 %"), "{nothing}");
+}

@@ -170,11 +170,14 @@ impl Document {
                 .expected(format!("a multiple of {every} s up to the duration, {duration} s"))
                 .found(format!("{at} s")));
         }
-        let probability = self.quantity(&r.probability, Unit::ONE, Range::Positive)?;
-        if probability >= 1.0 {
+        let probability = self.quantity(&r.probability, Unit::ONE, Range::Any)?;
+        if !(probability > 0.0 && probability < 1.0) {
+            let all = probability >= 1.0;
+            let problem = if all { "no radius holds everything" } else { "a radius that holds nothing" };
+            let expected = if all { "a probability below one" } else { "a probability above zero" };
             return Err(self
-                .diagnostic(Spot::Node(r.probability.node), "no radius holds everything")
-                .expected("a probability below one")
+                .diagnostic(Spot::Node(r.probability.node), problem)
+                .expected(expected)
                 .found(probability.to_string())
                 .example("probability: 95 %"));
         }
