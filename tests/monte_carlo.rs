@@ -273,10 +273,10 @@ attempt() { # name, kilobytes, arguments
   cp -r disk/out "seen/$name"
   rm disk/filler
 }
-attempt first 16 --seed 2
-attempt some 200 --seed 2
+attempt first 16 $MANY --seed 2
+attempt some 200 $MANY --seed 2
 ls disk/out.partial > seen/kept
-attempt resumed 1300 --seed 2
+attempt resumed 1300 $MANY --seed 2
 test ! -e disk/out.partial
 attempt results 40 --seed 3 --set monte_carlo.runs=2
 schuler run a.yaml --quiet --out disk/out --seed 3 --set monte_carlo.runs=2
@@ -303,10 +303,15 @@ fn a_full_disk_loses_nothing() {
         return;
     };
     let place = place("disk");
-    succeeds(&place, &["run", "a.yaml", "--seed", "2", "--out", "whole"]);
+    // So many samples that 128 runs, 100 kB, take one thread longer than the tenth of a second after which runs are kept.
+    let many = "--set imu.rate=2kHz --set monte_carlo.runs=512";
+    let arguments: Vec<&str> =
+        ["run", "a.yaml", "--seed", "2", "--out", "whole"].into_iter().chain(many.split(' ')).collect();
+    succeeds(&place, &arguments);
     succeeds(&place, &["run", "a.yaml", "--seed", "3", "--set", "monte_carlo.runs=2", "--out", "whole few"]);
     fs::write(place.0.join("disk.sh"), SMALL_DISK).expect("a script");
-    let output = bash(&place, &format!("{} bash disk.sh", namespace.join(" ")), &[]);
+    let output =
+        bash(&place, &format!("RAYON_NUM_THREADS=1 MANY='{many}' {} bash disk.sh", namespace.join(" ")), &[]);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let seen = |name: &str| fs::read_to_string(place.0.join("seen").join(name)).expect("a file");
     for (name, code) in [("first", "2"), ("some", "2"), ("resumed", "0"), ("results", "2")] {

@@ -1,5 +1,6 @@
 //! What one more source costs a budget: as a column under transitions gathered over an interval, and with a covariance of
-//! its own. Items are IMU steps of one source.
+//! its own; items are IMU steps of one source. And what a whole study costs with more of them, to the last column of its tables;
+//! items are IMU steps.
 //!
 //! `cargo bench -p schuler-studies --bench budget`; what counts is the ratio of the figures in one run.
 
@@ -10,9 +11,12 @@ use schuler_imu::{Instrument, Source, Spec, Truth, process::MAX_STATES};
 use schuler_strapdown::filter::{Accumulator, Form, Model, NavStates};
 use schuler_strapdown::{ErrorDynamics, Increments, Pva, Vertical};
 use schuler_studies::budget::Columns;
+use schuler_studies::{Context, Scenario};
 
 /// IMU steps of an interval: one second at 100 Hz.
 const STEPS: usize = 100;
+/// Those of the intervals of the study at that rate.
+const OF_STUDY: usize = 20;
 const DT: f64 = 0.01;
 
 /// Intervals in one sample of a single source, so that the clock's own time does not count.
@@ -31,6 +35,16 @@ fn main() {
 /// Columns of constants and initial errors: what grows with their number, transition and responses being there.
 #[divan::bench(args = [64, 512, 2048, 8192])]
 fn columns(bencher: Bencher, sources: usize) {
+    columns_over(bencher, sources, STEPS);
+}
+
+/// The same over intervals of the study.
+#[divan::bench(args = [64, 2048])]
+fn columns_of_the_study(bencher: Bencher, sources: usize) {
+    columns_over(bencher, sources, OF_STUDY);
+}
+
+fn columns_over(bencher: Bencher, sources: usize, steps: usize) {
     let mut columns = Columns::new();
     for k in 0..sources {
         columns.push([1.0; 9], k % (1 + RESPONSES), 0.5);
@@ -40,8 +54,37 @@ fn columns(bencher: Bencher, sources: usize) {
         SMatrix::<f64, 9, 9>::from_fn(|i, j| if i == j { 0.999 } else { 1e-4 * (i + 2 * j) as f64 / 24.0 });
     let responses = [SVector::<f64, 9>::repeat(1e-6); 1 + RESPONSES];
     bencher
-        .counter(ItemsCount::new(sources * STEPS))
+        .counter(ItemsCount::new(sources * steps))
         .bench_local(|| columns.advance(black_box(&phi), black_box(&responses)));
+}
+
+/// A budget of two minutes of flight, two rows, all its ways but runs, with so many constants in its list, of the same few kinds.
+#[divan::bench(args = [6, 606], sample_count = 10)]
+fn whole_study(bencher: Bencher, constants: usize) {
+    let bias = |k: usize| format!("bias: {{ constant: {{ sigma: {}e-3 deg/h }} }}", k + 1);
+    let of_gyro = |k: usize| format!("{}, ", bias(k));
+    let of_accel = |k: usize| format!("{}, ", bias(k).replace("deg/h", "mg"));
+    let list = |of: &dyn Fn(usize) -> String| (0..constants / 6).map(of).collect::<String>();
+    let text = format!(
+        "
+schuler: 1
+study: budget
+title: Bench
+start: {{ position: {{ lat: 45 deg, lon: 7 deg, h: 300 m }}, velocity: {{ n: 100 m/s, e: 0 m/s, d: 0 m/s }} }}
+motion: {{ segments: [{{ turn: {{ angle: 90 deg, rate: 3 deg/s, ramp: 2 s }} }}, {{ straight: {{ duration: 60 s }} }}] }}
+duration: 90 s
+imu: {{ rate: 100 Hz, gyro: [{}], accel: [{}] }}
+budget: {{ runs: 0 }}
+mechanization: {{ frame: t, vertical: held, gravity: somigliana }}
+output: {{ every: 90 s, formats: [csv] }}
+",
+        list(&of_gyro),
+        list(&of_accel)
+    );
+    let scenario = Scenario::load("bench.yaml", &text, &[]).expect("a scenario");
+    bencher
+        .counter(ItemsCount::new(9000_usize))
+        .bench_local(|| schuler_studies::run(&scenario, &Context::silent()).expect("a budget"));
 }
 
 /// A constant gyro bias with its covariance: transition accumulated step by step, and a time update an interval.

@@ -12,7 +12,7 @@ use super::source::Source;
 use super::subject::{plane, written};
 use super::{Contribution, Way};
 use crate::{
-    record::{Cell, Table, columns},
+    record::{self, Cell, Table, columns},
     scenario::{Required, Requirement},
 };
 
@@ -136,8 +136,8 @@ fn sheet(x: f64, unit: Unit) -> String {
     }
     let known = units.iter().find(|(known, _, _)| *known == unit);
     match known {
-        Some((_, symbol, factor)) => format!("{:.4} {symbol}", x / factor),
-        None => format!("{x:.6} {unit}"),
+        Some((_, symbol, factor)) => format!("{} {symbol}", record::number(x / factor)),
+        None => format!("{} {unit}", record::number(x)),
     }
 }
 

@@ -11,6 +11,7 @@ mod verdict;
 
 pub use folder::Folder;
 pub(crate) use folder::MANIFEST;
+pub(crate) use summary::number;
 pub use table::{Cell, Column, Table, columns};
 
 use serde::Serialize;

@@ -133,7 +133,7 @@ fn digits(x: f64, tolerance: f64) -> String {
 }
 
 /// Five significant digits; `-` where there is no number.
-fn number(x: f64) -> String {
+pub(crate) fn number(x: f64) -> String {
     significant(x, 5)
 }
 
