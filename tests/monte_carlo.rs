@@ -135,7 +135,7 @@ fn killed_when_its_results_are_there() {
     let short = ["--set", "monte_carlo.runs=1000", "--set", "duration=12 s"];
     let run = |out: &str| command(&place, &[&["run", "a.yaml", "--out", out][..], &short].concat());
     assert!(run("whole").status().expect("it starts").success());
-    for round in 0..8 {
+    for round in 0..4 {
         let out = format!("killed-{round}");
         let mut child = run(&out).spawn().expect("it starts");
         while !place.0.join(&out).exists() && child.try_wait().expect("a child").is_none() {

@@ -307,9 +307,10 @@ mod tests {
     fn limits_in_the_units_of_data_sheets() {
         let deg = PI / 180.0;
         assert_eq!(sheet(deg / 3600.0, Unit::RATE), "1.0000 deg/h");
-        assert_eq!(sheet(0.003 * deg / 60.0, Unit::RATE.times_half_seconds(1)), "0.0030 deg/sqrt(h)");
-        assert_eq!(sheet(50.0 * 9.80665e-6, Unit::FORCE), "50.0000 ug");
-        assert_eq!(sheet(10.0 * 9.80665e-6, Unit::FORCE.times_half_seconds(1)), "10.0000 ug/sqrt(Hz)");
+        assert_eq!(sheet(0.003 * deg / 60.0, Unit::RATE.times_half_seconds(1)), "0.0030000 deg/sqrt(h)");
+        assert_eq!(sheet(50.0 * 9.80665e-6, Unit::FORCE), "50.000 ug");
+        assert_eq!(sheet(10.0 * 9.80665e-6, Unit::FORCE.times_half_seconds(1)), "10.000 ug/sqrt(Hz)");
+        assert_eq!(sheet(0.000_812_346 * deg / 3600.0, Unit::RATE), "8.1235e-4 deg/h");
         assert_eq!(sheet(f64::INFINITY, Unit::ONE), "");
     }
 }
